@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+namespace tyndall {
+
+/// All throw Error with the path and the system's reason.
+[[nodiscard]] std::string read_text(const std::filesystem::path& path);
+[[nodiscard]] std::vector<std::uint8_t> read_bytes(const std::filesystem::path& path);
+[[nodiscard]] nlohmann::json read_json(const std::filesystem::path& path);  ///< error has line and column
+
+/// Calls `write` with a temporary path beside `path` (same extension) and renames it when it returns: a failure
+/// leaves neither a partial file nor a changed old one.
+void write_atomically(const std::filesystem::path& path,
+                      const std::function<void(const std::filesystem::path&)>& write);
+void write_text(const std::filesystem::path& path, const std::string& text);
+
+/// The folder that holds shaders/ and assets/: $TYNDALL_DATA, else the source folder the build was made from.
+[[nodiscard]] std::filesystem::path data_root();
+
+/// `uri` (already percent-decoded) relative to `folder`; throws Error if it is absolute, has a scheme or leaves
+/// the folder (also through symbolic links).
+[[nodiscard]] std::filesystem::path resolve_inside(const std::filesystem::path& folder, const std::string& uri);
+
+}  // namespace tyndall

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <chrono>
+
+namespace tyndall {
+
+/// Time of the game: the wall clock (steps clamped to 0.1 s so that a pause does not jump), or fixed steps for
+/// reproducible runs.
+class FrameClock {
+  public:
+    static FrameClock wall() { return FrameClock(0); }
+    static FrameClock fixed(double step_seconds) { return FrameClock(step_seconds); }
+    /// Advances one frame and returns its step in seconds.
+    double tick();
+    [[nodiscard]] double time() const { return time_; }
+
+  private:
+    explicit FrameClock(double fixed) : fixed_(fixed) {}
+    double fixed_;
+    double time_ = 0;
+    std::chrono::steady_clock::time_point last_{};
+};
+
+}  // namespace tyndall

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <memory>
+#include <string>
+
+#include "engine/platform/input.h"
+
+namespace tyndall {
+
+/// automatic: GLFW if a window is asked for; else EGL, else OSMesa (each failure is logged).
+enum class ContextKind { automatic, egl, osmesa, glfw };
+
+struct ContextRequest {
+    ContextKind kind = ContextKind::automatic;
+    glm::ivec2 size{1280, 720};  ///< of the window; ignored headless
+    std::string title = "Tyndall";
+    bool window = false;  ///< a visible window is wanted
+    bool vsync = true;
+    bool debug = true;  ///< GL_DEBUG_OUTPUT, synchronous; messages go to the log and to `debug_message_count`
+};
+
+/// What the renderer may want to know of the driver.
+struct Capabilities {
+    std::string vendor, renderer, version;
+    bool software = false;             ///< llvmpipe or softpipe: timer queries lie, see FrameTimer
+    bool indirect_parameters = false;  ///< ARB_indirect_parameters
+    float max_anisotropy = 1;
+    int max_texture_size = 0;
+};
+
+/// An OpenGL 4.5 core context. The renderer always draws to its own framebuffers; `present` is a blit.
+class GlContext {
+  public:
+    virtual ~GlContext() = default;
+    GlContext() = default;
+    GlContext(const GlContext&) = delete;
+    GlContext& operator=(const GlContext&) = delete;
+
+    virtual void make_current() = 0;
+    [[nodiscard]] virtual ContextKind kind() const = 0;
+    /// Takes pending window events into `input()`. Headless: does nothing.
+    virtual void poll() {}
+    /// Shows colour attachment 0 of `framebuffer` (size in pixels). Headless: glFinish.
+    virtual void present(unsigned framebuffer, glm::ivec2 size) = 0;
+    [[nodiscard]] virtual bool should_close() const { return false; }
+    virtual void request_close() {}
+    /// Pixels of the window's framebuffer; the requested size when headless.
+    [[nodiscard]] virtual glm::ivec2 framebuffer_size() const = 0;
+    /// Captures the pointer for mouse look. Headless: does nothing.
+    virtual void capture_pointer(bool) {}
+    [[nodiscard]] const Capabilities& capabilities() const { return capabilities_; }
+    [[nodiscard]] Input& input() { return input_; }
+
+  protected:
+    /// Loads the functions, checks for 4.5, fills capabilities_, hooks debug output. Called by each back end.
+    void initialise(void* (*get_proc_address)(const char*), bool debug);
+    Capabilities capabilities_;
+    Input input_;
+};
+
+/// Makes a context current. Throws Error: which kind failed and why ("no display", "OpenGL 3.3, 4.5 needed").
+[[nodiscard]] std::unique_ptr<GlContext> create_context(const ContextRequest& request);
+[[nodiscard]] ContextKind parse_context_kind(const std::string& name);  ///< throws UsageError
+[[nodiscard]] const char* to_string(ContextKind kind);
+
+/// GL debug messages of medium or high severity since the start (or the last reset): tests require 0.
+struct DebugMessages {
+    int count = 0;
+    std::string last;
+};
+[[nodiscard]] DebugMessages debug_messages();
+void reset_debug_messages();
+
+}  // namespace tyndall

@@ -1,0 +1,104 @@
+#pragma once
+
+#include <bitset>
+#include <glm/vec2.hpp>
+#include <string>
+
+namespace tyndall {
+
+/// The keys the game and the debug UI know, independent of the window library.
+enum class Key {
+    a,
+    b,
+    c,
+    d,
+    e,
+    f,
+    g,
+    h,
+    i,
+    j,
+    k,
+    l,
+    m,
+    n,
+    o,
+    p,
+    q,
+    r,
+    s,
+    t,
+    u,
+    v,
+    w,
+    x,
+    y,
+    z,
+    num_0,
+    num_1,
+    num_2,
+    num_3,
+    num_4,
+    num_5,
+    num_6,
+    num_7,
+    num_8,
+    num_9,
+    space,
+    enter,
+    escape,
+    tab,
+    backspace,
+    del,
+    home,
+    end,
+    page_up,
+    page_down,
+    left,
+    right,
+    up,
+    down,
+    shift,
+    control,
+    alt,
+    minus,
+    period,
+    comma,
+    f1,
+    f2,
+    f3,
+    f4,
+    f5,
+    f6,
+    f7,
+    f8,
+    f9,
+    f10,
+    f11,
+    f12,
+    count
+};
+enum class MouseButton { left, right, middle, count };
+
+/// Input since the last poll. "pressed" is the edge, "down" the level.
+struct Input {
+    std::bitset<static_cast<int>(Key::count)> keys_down, keys_pressed;
+    std::bitset<static_cast<int>(MouseButton::count)> buttons_down, buttons_pressed;
+    glm::dvec2 pointer{0};        ///< window pixels from the top left
+    glm::dvec2 pointer_delta{0};  ///< since the last poll
+    double scroll = 0;
+    std::string text;  ///< UTF-8 typed since the last poll
+    struct Gamepad {
+        bool present = false;
+        glm::vec2 left{0}, right{0};                   ///< sticks, -1..1, +y is down (GLFW), dead zone removed
+        bool jump = false, fly = false, menu = false;  ///< pressed edges of A, Y, Start
+        float up = 0, down = 0;                        ///< triggers 0..1
+    } gamepad;
+
+    [[nodiscard]] bool down(Key k) const { return keys_down[static_cast<int>(k)]; }
+    [[nodiscard]] bool pressed(Key k) const { return keys_pressed[static_cast<int>(k)]; }
+    /// Forgets edges and deltas: back ends call it at the start of a poll.
+    void begin_poll();
+};
+
+}  // namespace tyndall
