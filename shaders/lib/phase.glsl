@@ -1,0 +1,51 @@
+#ifndef TYNDALL_LIB_PHASE
+#define TYNDALL_LIB_PHASE
+
+// Phase functions p(cos_theta) [1/sr]. cos_theta is between the direction in which light travels and the
+// direction in which it leaves towards the eye: +1 is forward scattering, and g > 0 scatters forward.
+// Each integrates to 1 over the sphere.
+
+const float PI = 3.14159265358979f;
+
+const int PHASE_ISOTROPIC = 0;
+const int PHASE_HENYEY_GREENSTEIN = 1;
+const int PHASE_SCHLICK = 2;
+
+// |g| above this is taken as this: at 1 both functions become a delta.
+const float PHASE_MAX_ANISOTROPY = 0.999f;
+
+float phase_isotropic() {
+    return 0.25f / PI;
+}
+
+// Henyey and Greenstein 1941: (1 - g^2) / (4 pi (1 + g^2 - 2 g cos_theta)^(3/2)); its mean cosine is g.
+// With a = |g| the bracket is (1 - a)^2 + 2 a (1 - sign(g) cos_theta), which does not cancel at the peak.
+// g = 0 is isotropic.
+float phase_henyey_greenstein(float g, float cos_theta) {
+    float a = min(abs(g), PHASE_MAX_ANISOTROPY);
+    float signed_cos_theta = g < 0.0f ? -cos_theta : cos_theta;
+    float bracket = (1.0f - a) * (1.0f - a) + 2.0f * a * max(1.0f - signed_cos_theta, 0.0f);
+    return 0.25f / PI * (1.0f - a) * (1.0f + a) / (bracket * sqrt(bracket));
+}
+
+// Blasi, Le Saec, Schlick 1993: (1 - k^2) / (4 pi (1 - k cos_theta)^2) with k = 1.55 g - 0.55 g^3, a
+// Henyey-Greenstein without the power. The fit of k passes 1 at |g| = 0.938, where the function would be
+// singular and then negative, so |k| is held at PHASE_MAX_ANISOTROPY: from |g| = 0.929 on the lobe stays as it is.
+float phase_schlick(float g, float cos_theta) {
+    float k = min(abs(1.55f * g - 0.55f * g * g * g), PHASE_MAX_ANISOTROPY);
+    float signed_cos_theta = g < 0.0f ? -cos_theta : cos_theta;
+    float bracket = (1.0f - k) + k * max(1.0f - signed_cos_theta, 0.0f);
+    return 0.25f / PI * (1.0f - k) * (1.0f + k) / (bracket * bracket);
+}
+
+float phase(int kind, float g, float cos_theta) {
+    if (kind == PHASE_HENYEY_GREENSTEIN) {
+        return phase_henyey_greenstein(g, cos_theta);
+    }
+    if (kind == PHASE_SCHLICK) {
+        return phase_schlick(g, cos_theta);
+    }
+    return phase_isotropic();
+}
+
+#endif
