@@ -1,0 +1,42 @@
+#pragma once
+
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "engine/gl/buffer.h"
+#include "engine/render/gpu_scene.h"
+
+namespace tyndall {
+
+/// Indirect draws of the instances that meet a frustum: one multi-draw per material, equal meshes instanced.
+/// Shaders find the instance as visible_instances[gl_BaseInstance + gl_InstanceID] (BINDING_VISIBLE_INSTANCES, with
+/// ARB_shader_draw_parameters).
+class DrawList {
+  public:
+    enum class Filter { all, shadow_casters, static_shadow_casters };
+    /// Culls on the CPU (conservative boxes) and uploads commands. Materials with alpha_blend are left out.
+    void build(const GpuScene& scene, const Frustum& frustum, Filter filter);
+    /// Several views at once (shadow tiles): view i's commands are drawn by draw(i, …).
+    void build(const GpuScene& scene, std::span<const Frustum> frusta, Filter filter);
+
+    /// Calls `bind_material(material index)` before each material's multi-draw.
+    void draw(const GpuScene& scene, const std::function<void(int)>& bind_material, int view = 0) const;
+    [[nodiscard]] std::size_t instance_count(int view = 0) const;
+    [[nodiscard]] std::size_t triangle_count(int view = 0) const;
+    [[nodiscard]] std::size_t draw_call_count(int view = 0) const;
+
+  private:
+    struct Batch {
+        int material;
+        std::uint32_t first_command, command_count;
+    };
+    struct ViewBatches {
+        std::vector<Batch> batches;
+        std::size_t instances = 0, triangles = 0;
+    };
+    std::vector<ViewBatches> views_;
+    gl::Buffer commands_, visible_;
+};
+
+}  // namespace tyndall

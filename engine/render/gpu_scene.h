@@ -1,0 +1,64 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "engine/gl/buffer.h"
+#include "engine/gl/sampler.h"
+#include "engine/gl/texture.h"
+#include "engine/gl/vertex_array.h"
+#include "engine/scene/scene.h"
+#include "engine/scene/view.h"
+
+namespace tyndall {
+
+/// One mesh placed in the world. Sorted by material, then mesh, so that equal meshes draw instanced.
+struct Instance {
+    int mesh;
+    int material;
+    int node;
+    bool cast_shadow;
+    bool dynamic;
+    Aabb bounds;  ///< world
+};
+
+/// The scene on the GPU: one vertex and one index buffer, a texture per picture and slot, transforms per instance.
+class GpuScene {
+  public:
+    explicit GpuScene(const Scene& scene);
+    /// Uploads the transforms of dynamic instances and refreshes their bounds.
+    void update(const Scene& scene);
+
+    [[nodiscard]] std::span<const Instance> instances() const { return instances_; }
+    struct MeshRange {
+        std::uint32_t first_index, index_count;
+        std::int32_t base_vertex;
+    };
+    [[nodiscard]] const MeshRange& range(int mesh) const { return ranges_[mesh]; }
+    struct GpuMaterial {
+        GLuint base_color = 0, metallic_roughness = 0, normal = 0, occlusion = 0,
+               emissive = 0;  ///< texture names, never 0: neutral 1x1 where absent
+        glm::vec4 base_color_factor;
+        glm::vec4 emissive_alpha_cutoff;                ///< rgb cd/m², a cutoff (< 0: opaque)
+        glm::vec4 metallic_roughness_normal_occlusion;  ///< factors
+        bool alpha_mask, alpha_blend, double_sided;
+    };
+    [[nodiscard]] const GpuMaterial& material(int index) const { return materials_[index]; }
+
+    /// Attribute 0 position, 1 normal, 2 tangent, 3 uv; instance transforms at BINDING_INSTANCES (mat4 model per
+    /// instance, in the order of instances()).
+    void bind() const;
+    /// True when a dynamic shadow caster whose bounds meet `frustum` exists.
+    [[nodiscard]] bool has_dynamic_caster(const Frustum& frustum) const;
+
+  private:
+    std::vector<Instance> instances_;
+    std::vector<MeshRange> ranges_;
+    std::vector<GpuMaterial> materials_;
+    std::vector<gl::Texture> textures_;
+    gl::Sampler sampler_;
+    gl::Buffer vertices_, indices_, transforms_;
+    gl::VertexArray vertex_array_;
+};
+
+}  // namespace tyndall

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <filesystem>
+#include <glm/glm.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+namespace tyndall {
+
+/// One entry of a media list, as in a media file or a scene's extras.media. Coefficients in 1/m at density 1.
+struct Medium {
+    enum class Shape { global, height, sphere, ellipsoid, box, grid };
+    Shape shape = Shape::global;
+    glm::vec3 sigma_s{0}, sigma_a{0};
+    float anisotropy = 0;   ///< g in (-1, 1); g > 0 scatters forward
+    glm::vec3 emission{0};  ///< emitted radiance per metre
+    glm::vec3 center{0};
+    glm::vec3 radii{1};  ///< sphere (equal) and ellipsoid; m
+    glm::vec3 size{1};   ///< box: full edge lengths; m
+    glm::quat rotation{1, 0, 0, 0};
+    float softness = 0;      ///< m; linear ramp at the rim, inside the shape
+    float noise_scale = 0;   ///< m per period; 0 = no noise
+    float noise_amount = 0;  ///< 0..1
+    int noise_seed = 0;
+    bool height_profile = false;  ///< shape height, or a bounded shape with "height"
+    float base = 0, falloff = 1;  ///< density exp(-(y - base) / falloff), m
+    std::string file;             ///< grid
+    float grid_scale = 1, grid_density = 1;
+};
+
+/// Parses {"media": [...]} or the bare list. `where` starts each message: path and index ("fog.json:
+/// media[2].radius: …"). Unknown keys, wrong types, non-finite numbers, negative coefficients, |g| >= 1, sizes <= 0
+/// are errors. A `grid` is an error that says grid media are not supported by this version.
+[[nodiscard]] std::vector<Medium> parse_media(const nlohmann::json& json, const std::string& where);
+[[nodiscard]] std::vector<Medium> load_media(const std::filesystem::path& path);
+
+}  // namespace tyndall

@@ -1,0 +1,149 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <glm/glm.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/scene/medium.h"
+
+namespace tyndall {
+
+struct Aabb {
+    glm::vec3 min{1e30f}, max{-1e30f};
+    void add(glm::vec3 p) {
+        min = glm::min(min, p);
+        max = glm::max(max, p);
+    }
+    [[nodiscard]] bool empty() const { return min.x > max.x; }
+};
+[[nodiscard]] Aabb transformed(const Aabb& box, const glm::mat4& m);
+
+struct Vertex {
+    glm::vec3 position;
+    glm::vec3 normal;
+    glm::vec4 tangent;  ///< w is the sign of the bitangent
+    glm::vec2 uv;
+};
+
+/// A texture's picture, 8 bit RGBA, rows from the top. Whether it is sRGB follows from the slot that uses it.
+struct Picture {
+    std::string name;
+    glm::ivec2 size{0};
+    std::vector<std::uint8_t> rgba;
+};
+
+/// glTF metallic-roughness. Picture indices are -1 where absent.
+struct Material {
+    std::string name;
+    glm::vec4 base_color{1};
+    float metallic = 1, roughness = 1;
+    glm::vec3 emissive{0};  ///< luminance in cd/m²: emissiveFactor * KHR_materials_emissive_strength
+    float normal_scale = 1, occlusion_strength = 1;
+    int base_color_picture = -1, metallic_roughness_picture = -1, normal_picture = -1, occlusion_picture = -1,
+        emissive_picture = -1;
+    bool alpha_mask = false, alpha_blend = false, double_sided = false;
+    float alpha_cutoff = 0.5f;
+};
+
+/// One glTF primitive (triangles).
+struct Mesh {
+    std::string name;
+    std::vector<Vertex> vertices;
+    std::vector<std::uint32_t> indices;
+    int material = 0;
+    Aabb bounds;
+};
+
+struct Node {
+    std::string name;
+    int parent = -1;
+    glm::vec3 translation{0};
+    glm::quat rotation{1, 0, 0, 0};
+    glm::vec3 scale{1};
+    std::vector<int> meshes;
+    int light = -1, camera = -1;
+    bool cast_shadow = true;  ///< extras.cast_shadow
+    bool dynamic = false;     ///< it or an ancestor is animated
+    glm::mat4 world{1};
+};
+
+enum class LightType { sun, point, spot };
+
+/// KHR_lights_punctual. It shines along its node's -Z.
+struct Light {
+    std::string name;
+    LightType type = LightType::point;
+    glm::vec3 intensity{1};  ///< colour * intensity: lux for the sun, candela for point and spot
+    float range =
+        0;  ///< m; 0 in a file means infinite: the loader replaces it by the distance where E falls to 0.01 lx
+    float inner_cone = 0, outer_cone = 0.785398f;  ///< half angles, rad
+    float radius = 0.01f;                          ///< m; extras.radius: d² is clamped at its square
+    bool shadow = true;                            ///< extras.shadow
+    int node = -1;
+};
+
+struct Camera {
+    std::string name;
+    float yfov = 1;      ///< vertical, rad
+    float znear = 0.1f;  ///< m; the far plane is infinite
+    int node = -1;
+};
+
+struct Animation {
+    enum class Path { translation, rotation, scale };
+    enum class Interpolation { step, linear, cubic };
+    struct Channel {
+        int node;
+        Path path;
+        Interpolation interpolation;
+        std::vector<float> times;
+        std::vector<glm::vec4> values;  ///< cubic: in-tangent, value, out-tangent per key; rotation as xyzw
+    };
+    struct Place {
+        std::string name;
+        float time;
+    };
+    std::string name;
+    std::vector<Channel> channels;
+    float duration = 0;         ///< s
+    std::vector<Place> places;  ///< extras.places, of the animation "flythrough"
+};
+
+struct Scene {
+    std::filesystem::path path;
+    std::vector<Picture> pictures;
+    std::vector<Material> materials;  ///< at least one
+    std::vector<Mesh> meshes;
+    std::vector<Node> nodes;  ///< parents before children
+    std::vector<Light> lights;
+    std::vector<Camera> cameras;
+    std::vector<Animation> animations;
+    std::vector<Medium> media;  ///< scene extras.media
+    float exposure_ev100 = 0;   ///< scene extras.exposure; 0: L = 1 maps to 1/1.2
+    Aabb bounds;                ///< world, of all meshes at time 0
+
+    [[nodiscard]] const Camera* find_camera(const std::string& name) const;
+    [[nodiscard]] const Animation* find_animation(const std::string& name) const;
+    [[nodiscard]] const Node* find_node(const std::string& name) const;
+    [[nodiscard]] std::optional<std::size_t> sun() const;  ///< index of the first sun
+};
+
+/// Evaluates every animation except `except` (looped over its duration) at `time` and updates world transforms.
+void animate(Scene& scene, double time, const std::string& except = "flythrough");
+/// Evaluates one animation (clamped to its duration), for the fly-through.
+void animate_one(Scene& scene, const Animation& animation, double time);
+void update_world_transforms(Scene& scene);
+
+/// Adds a default sun, camera framing the bounds, where the scene has none of the sort (Box.glb and the like).
+void add_missing_camera(Scene& scene);
+
+/// Loads .gltf or .glb. Only files inside the scene's folder are read. Throws Error: path, what, expected. Bad
+/// numbers (NaN, Inf, negative intensity, indices out of range) are errors.
+[[nodiscard]] Scene load_gltf(const std::filesystem::path& path);
+
+}  // namespace tyndall

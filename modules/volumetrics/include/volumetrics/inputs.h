@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <glm/glm.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <vector>
+
+#include "engine/graph/pass_list.h"
+
+namespace tyndall::volumetrics {
+
+/// A medium that fills space. Coefficients in 1/m at density 1; density is 1, or exp(-(y - base) / falloff).
+struct GlobalMedium {
+    glm::vec3 sigma_s{0}, sigma_a{0};
+    float anisotropy = 0;   ///< g in (-1, 1), > 0 is forward
+    glm::vec3 emission{0};  ///< radiance per metre
+    bool height = false;
+    float base = 0, falloff = 1;  ///< m
+};
+
+/// A medium bounded by an ellipsoid or a box, injected into the froxel volume.
+struct LocalMedium {
+    bool box = false;          ///< else an ellipsoid
+    glm::vec3 center{0};       ///< m
+    glm::vec3 half_extent{1};  ///< radii or half edge lengths, m
+    glm::quat rotation{1, 0, 0, 0};
+    float softness = 0;  ///< m: linear ramp at the rim, inside the shape
+    glm::vec3 sigma_s{0}, sigma_a{0};
+    float anisotropy = 0;
+    glm::vec3 emission{0};
+    float noise_scale = 0, noise_amount = 0;  ///< m; 0..1
+    int noise_seed = 0;
+    bool height = false;
+    float base = 0, falloff = 1;
+};
+
+/// What the host gives each frame. All textures are borrowed.
+struct Inputs {
+    glm::mat4 view{1};        ///< world to view, right-handed, looks along -Z
+    glm::mat4 projection{1};  ///< reversed-Z, infinite far, clip depth 0..1
+    glm::vec3 eye{0};
+    float znear = 0.1f;  ///< m
+    glm::ivec2 size{0};  ///< px, of `depth`
+    TextureRef depth;    ///< D32F reversed-Z
+
+    std::vector<GlobalMedium> global;  ///< any number of homogeneous, at most 4 height media (Error otherwise)
+    std::vector<LocalMedium> local;
+
+    bool has_sun = false;
+    bool has_lamps = false;  ///< local lights are in view
+    bool has_ambient = false;
+    std::vector<TextureRef> light_textures;  ///< what shaders/interface/{lights,shadows}.glsl sample
+    std::vector<BufferRef> light_buffers;    ///< and read
+    std::function<void()> bind_lighting;     ///< binds those; called inside each pass that lights the medium
+
+    std::uint32_t frame_index = 0;
+    double time = 0;          ///< s
+    bool count_work = false;  ///< compile the instrumented permutations
+};
+
+}  // namespace tyndall::volumetrics

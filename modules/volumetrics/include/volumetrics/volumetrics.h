@@ -1,0 +1,46 @@
+#pragma once
+
+#include <memory>
+
+#include "engine/shader/shader_library.h"
+#include "volumetrics/inputs.h"
+#include "volumetrics/outputs.h"
+#include "volumetrics/settings.h"
+
+namespace tyndall::volumetrics {
+
+/// Light in participating media for an OpenGL 4.5 renderer. One object per view.
+///
+///     Outputs out = volumetrics.add_passes(passes, inputs, settings);
+///     color = volumetrics.composite(passes, out, color);
+///
+/// Adds only the passes that the media and lights in `inputs` need; says why for the others (PassList::skip). With
+/// no medium it adds nothing, allocates nothing and returns empty outputs.
+class Volumetrics {
+  public:
+    explicit Volumetrics(ShaderLibrary& shaders);
+    ~Volumetrics();
+    Volumetrics(const Volumetrics&) = delete;
+    Volumetrics& operator=(const Volumetrics&) = delete;
+
+    /// Throws Error for more height media than the uniform block holds.
+    [[nodiscard]] Outputs add_passes(PassList& passes, const Inputs& inputs, const Settings& settings);
+    /// Blends the result over `color` (RGBA16F, linear radiance); returns its new version (the same ref when there
+    /// is nothing to apply).
+    [[nodiscard]] TextureRef composite(PassList& passes, const Outputs& outputs, TextureRef color);
+
+    /// Binds the uniform block at BINDING_VOLUMETRICS, for host shaders that attenuate surface light with
+    /// shaders/volumetrics/light_transmittance.glsl. Valid from `prepare` on.
+    void bind_uniforms() const;
+    /// Uploads this frame's uniforms and media; called before add_passes, and before the host's lighting pass runs.
+    void prepare(const Inputs& inputs, const Settings& settings);
+
+    /// Bytes held between frames (history, tables), without the pass list's transient textures.
+    [[nodiscard]] std::size_t persistent_bytes() const;
+
+  private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace tyndall::volumetrics

@@ -1,0 +1,21 @@
+// CONTRACT: the lights a volumetric technique scatters. A host engine replaces this file; Tyndall's reads its own
+// clustered lights. World space, metres, photometric units (shaders/shared/lights.h).
+#ifndef INTERFACE_LIGHTS_GLSL
+#define INTERFACE_LIGHTS_GLSL
+
+#include "shaders/engine/light_data.glsl"
+
+// Direction sunlight travels (unit) and its illuminance in lux. Called only when the host said there is a sun.
+vec3 sun_direction() { return frame.sun_direction.xyz; }
+vec3 sun_illuminance() { return frame.sun_illuminance.rgb; }
+
+// Mean radiance of the ambient light over the sphere of directions.
+vec3 ambient_radiance() { return ambient_mean_radiance(); }
+
+// The local lights that may reach a point: a range of the list that light_at() indexes. `uv` is the screen position
+// (0..1, origin lower left), `view_depth` the distance along the view axis in metres.
+ClusterRange lights_near(vec2 uv, float view_depth) { return cluster_at(uv, view_depth); }
+uint light_index(uint i) { return cluster_lights[i]; }
+GpuLight light_at(uint index) { return lights[index]; }
+
+#endif

@@ -1,0 +1,27 @@
+// Binding points, one home for both languages.
+#ifndef SHARED_BINDINGS_H
+#define SHARED_BINDINGS_H
+
+// Uniform blocks
+#define BINDING_FRAME 0
+#define BINDING_VOLUMETRICS 1
+
+// Storage buffers
+#define BINDING_INSTANCES 0
+#define BINDING_LIGHTS 1
+#define BINDING_CLUSTERS 2
+#define BINDING_CLUSTER_LIGHTS 3
+#define BINDING_SHADOW_TILES 4
+#define BINDING_VISIBLE_LIGHTS 5
+#define BINDING_VISIBLE_INSTANCES 6
+#define BINDING_LOCAL_MEDIA 7
+#define BINDING_DITHER 8
+#define BINDING_WORK 15
+
+// Texture units of the lighting contract; passes use units 0-7 for their own textures.
+#define UNIT_SUN_CASCADES 8
+#define UNIT_SUN_STATIC 9
+#define UNIT_SHADOW_ATLAS 10
+#define UNIT_AMBIENT 11
+
+#endif
