@@ -23,7 +23,8 @@ struct Image {
 };
 
 /// Reads PNG, JPEG, EXR, HDR. 8 and 16 bit integers become 0..1 (no transfer curve is applied); EXR is as stored.
-/// Throws Error naming the path. `channels` 0 keeps the file's count; missing channels are 0, alpha 1.
+/// Alpha is straight. Throws Error naming the path. `channels` 0 keeps the file's count; otherwise grey fills red,
+/// green and blue, other missing channels are 0, alpha 1.
 [[nodiscard]] Image read_image(const std::filesystem::path& path, int channels = 0);
 /// Decodes a picture that lies in memory (an image embedded in a glTF buffer). `name` is for the error message.
 [[nodiscard]] Image decode_image(std::span<const std::uint8_t> bytes, const std::string& name, int channels = 4);
