@@ -1,0 +1,11 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace tyndall {
+
+/// Each adds one subcommand with its options; the subcommand runs from CLI's final callback and throws UsageError
+/// (exit code 2) or Error (1).
+void add_compare_command(CLI::App& app);
+
+}  // namespace tyndall

@@ -1,0 +1,27 @@
+#include "engine/core/error.h"
+#include "engine/core/log.h"
+#include "sample_game/commands/commands.h"
+
+#include <fmt/format.h>
+
+int main(int argc, char** argv) {
+    CLI::App app{"Tyndall: light in participating media, every technique on one scene"};
+    app.require_subcommand(1);
+    tyndall::init_logging();
+    try {
+        tyndall::add_compare_command(app);
+        app.parse(argc, argv);
+        return 0;
+    } catch (const CLI::Success& e) {
+        return app.exit(e);  // --help
+    } catch (const CLI::ParseError& e) {
+        fmt::print(stderr, "tyndall: {}\n", e.what());
+        return 2;
+    } catch (const tyndall::UsageError& e) {
+        fmt::print(stderr, "tyndall: {}\n", e.what());
+        return 2;
+    } catch (const std::exception& e) {
+        fmt::print(stderr, "tyndall: {}\n", e.what());
+        return 1;
+    }
+}
