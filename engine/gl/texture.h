@@ -25,6 +25,8 @@ struct TextureDesc {
 /// Full mip chain length.
 [[nodiscard]] int mip_count(glm::ivec3 size);
 [[nodiscard]] GLenum gl_target(TextureKind kind);
+/// `desc` with `levels` 0 replaced by the length of the full chain.
+[[nodiscard]] TextureDesc with_all_levels(TextureDesc desc);
 
 class Texture {
   public:
@@ -34,7 +36,7 @@ class Texture {
 
     [[nodiscard]] GLuint id() const { return handle_.id(); }
     explicit operator bool() const { return static_cast<bool>(handle_); }
-    [[nodiscard]] const TextureDesc& desc() const { return desc_; }
+    [[nodiscard]] const TextureDesc& desc() const { return desc_; }  ///< `levels` resolved, never 0
     [[nodiscard]] glm::ivec2 size() const { return {desc_.size.x, desc_.size.y}; }
 
     /// Uploads one level (all layers). `pixel_format`/`type` as in glTextureSubImage.

@@ -35,9 +35,10 @@ struct ProgramDesc {
 /// All valid combinations of the axes' values.
 [[nodiscard]] std::vector<Permutation> all_permutations(const ProgramDesc& desc);
 
-/// The text of `path` with its `#include "shaders/…"` lines resolved against `root` (each file once), #line
-/// directives kept so that the compiler's messages name a file. Throws Error: missing file, include cycle is
-/// impossible by include-once. `files` receives every file that was read.
+/// The text of `path` with its `#include "shaders/…"` lines resolved against `root` (each file once, whether or not
+/// an #if surrounds it; so there are no cycles). Other #include lines stay. Directives `#line N F` let the
+/// compiler's messages name a file: F is its index in `files`, to which every file asked for is appended. Throws
+/// Error for a missing file, naming the includer and its line.
 [[nodiscard]] std::string resolve_includes(const std::filesystem::path& root, const std::string& path,
                                            std::vector<std::filesystem::path>* files = nullptr);
 
@@ -52,9 +53,8 @@ class ShaderLibrary {
     /// Throws Error with the compiler's message on the first failure to build.
     [[nodiscard]] const gl::Program& get(const ProgramDesc& desc, const Permutation& permutation = {});
 
-    /// Rebuilds the programs whose files changed on disk. One that fails keeps its old program and adds a line to
-    /// `errors()`, which stays until the next success. Returns how many were rebuilt. Looks at the disk at most
-    /// every 0.5 s.
+    /// Rebuilds the programs whose files changed on disk. One that fails keeps its old program and has a line in
+    /// `errors()` until it builds again. Returns how many were rebuilt. Looks at the disk at most every 0.5 s.
     int reload_changed();
     [[nodiscard]] const std::vector<std::string>& errors() const { return errors_; }
     [[nodiscard]] std::size_t program_count() const;

@@ -1,0 +1,41 @@
+// Work counters (engine/gl/work_counters.h): COUNT_WORK 1 counts, anything else leaves no text behind.
+//
+//     count_work(WORK_SHADOW_LOOKUPS, 1u);  // anywhere: adds to a variable of the invocation
+//     flush_work();                         // once, where main ends: adds that to the pass's counters
+#ifndef TYNDALL_LIB_WORK
+#define TYNDALL_LIB_WORK
+
+#include "shaders/shared/bindings.h"
+
+#define WORK_MEDIUM_SAMPLES 0u
+#define WORK_SHADOW_LOOKUPS 1u
+#define WORK_LIGHT_EVALUATIONS 2u
+#define WORK_TEXTURE_FETCHES 3u
+
+#ifndef COUNT_WORK
+#define COUNT_WORK 0
+#endif
+
+#if COUNT_WORK
+struct WorkCounter {
+    uint low, high;
+};
+layout(std430, binding = BINDING_WORK) buffer WorkBuffer { WorkCounter work_total_[4]; };
+uvec4 work_ = uvec4(0u);
+
+void count_work(uint kind, uint n) { work_[kind] += n; }
+
+void flush_work() {
+    for (uint kind = 0u; kind < 4u; ++kind) {
+        uint n = work_[kind];
+        if (n == 0u) continue;
+        uint before = atomicAdd(work_total_[kind].low, n);
+        if (before + n < before) atomicAdd(work_total_[kind].high, 1u);  // a word of 2^32 was passed
+    }
+}
+#else
+#define count_work(kind, n)
+#define flush_work()
+#endif
+
+#endif
