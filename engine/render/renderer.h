@@ -1,0 +1,95 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/core/image.h"
+#include "engine/gl/query.h"
+#include "engine/gl/texture.h"
+#include "engine/gl/work_counters.h"
+#include "engine/graph/pass_list.h"
+#include "engine/render/frame_facts.h"
+#include "engine/render/render_settings.h"
+#include "engine/scene/scene.h"
+#include "engine/scene/view.h"
+#include "engine/shader/shader_library.h"
+#include "volumetrics/settings.h"
+
+namespace tyndall {
+
+/// What one frame is drawn with besides the scene and the view.
+struct FrameOptions {
+    double time = 0;                ///< s
+    std::uint32_t frame_index = 0;  ///< moves dither and noise patterns
+    bool count_work = false;        ///< instrumented shaders; see Renderer::work
+    gl::GpuTimer* timer = nullptr;  ///< per-pass times; its results are copied to Renderer::timings
+    std::string layer = "color";    ///< the layer that read_layer may be asked for (layer_names)
+    volumetrics::Settings volumetrics;
+    RenderSettings render;
+};
+
+/// Draws a scene deferred, into its own framebuffer: presenting is a blit of `display_framebuffer`.
+///
+///     Renderer renderer(shaders);
+///     renderer.prepare(scene);
+///     renderer.render(scene, view, size, options);   // each frame, after animate(scene, time)
+///     context.present(renderer.display_framebuffer(), renderer.size());
+///
+/// A GL 4.5 context must be current in every call and on destruction.
+class Renderer {
+  public:
+    explicit Renderer(ShaderLibrary& shaders);
+    ~Renderer();
+    Renderer(const Renderer&) = delete;
+    Renderer& operator=(const Renderer&) = delete;
+
+    /// Uploads meshes and pictures; call again for another scene. Throws Error when the driver's limits are
+    /// exceeded.
+    void prepare(const Scene& scene);
+    /// Builds the frame's pass list and runs it. `scene` is the prepared one, with node transforms, lights and
+    /// media of this instant. `size` in pixels, both at least 1. Throws Error: a shader that does not build, an
+    /// unknown layer.
+    void render(const Scene& scene, const View& view, glm::ivec2 size, const FrameOptions& options);
+    /// The view jumps (a camera cut): nothing of earlier frames may show in the next.
+    void invalidate_history();
+
+    // Results, of the last render().
+    [[nodiscard]] glm::ivec2 size() const;
+    /// Framebuffer whose colour attachment 0 is display().
+    [[nodiscard]] GLuint display_framebuffer() const;
+    [[nodiscard]] gl::TextureView display() const;  ///< RGBA8, exposed, tonemapped and sRGB encoded
+    [[nodiscard]] gl::TextureView color() const;    ///< RGBA16F, linear radiance in cd/m²
+    /// What a player sees, 4 channels 0..1, row 0 at the top. Waits for the GPU.
+    [[nodiscard]] Image read_display() const;
+    /// FrameOptions::layer of the last frame, linear, 3 channels (depth: 1), row 0 at the top: color, scattering
+    /// and emissive in cd/m²; transmittance 0..1 (scattering 0 and transmittance 1 without a medium); depth as view
+    /// depth in metres, 0 where there is only sky; albedo; normal in world space, 0 on the sky.
+    [[nodiscard]] Image read_layer() const;
+    [[nodiscard]] static const std::vector<std::string>& layer_names();
+
+    [[nodiscard]] const FrameFacts& facts() const;
+    [[nodiscard]] const PassList& passes() const;
+    [[nodiscard]] const std::vector<gl::GpuTimer::Scope>& timings() const;
+    /// Per pass, when count_work was set. Waits for the GPU.
+    [[nodiscard]] std::vector<std::pair<std::string, gl::WorkCounts>> work() const;
+
+    /// Bytes of transient and persistent render targets, shadow maps included; the scene's pictures are not.
+    [[nodiscard]] std::size_t texture_bytes() const;
+    /// What of this the volumetrics module keeps between frames.
+    [[nodiscard]] std::size_t volumetrics_bytes() const;
+
+    /// Draw statistics of the G-buffer pass.
+    struct DrawCounts {
+        std::size_t instances = 0, triangles = 0, draw_calls = 0;
+    };
+    [[nodiscard]] DrawCounts draw_counts() const;
+
+  private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace tyndall
