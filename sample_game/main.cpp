@@ -1,15 +1,17 @@
+#include <fmt/format.h>
+
 #include "engine/core/error.h"
 #include "engine/core/log.h"
 #include "sample_game/commands/commands.h"
-
-#include <fmt/format.h>
 
 int main(int argc, char** argv) {
     CLI::App app{"Tyndall: light in participating media, every technique on one scene"};
     app.require_subcommand(1);
     tyndall::init_logging();
     try {
+        tyndall::add_render_command(app);
         tyndall::add_compare_command(app);
+        tyndall::add_list_command(app);
         app.parse(argc, argv);
         return 0;
     } catch (const CLI::Success& e) {
