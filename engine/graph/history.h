@@ -10,9 +10,10 @@ namespace tyndall {
 /// camera cut), until a frame has written it; invalid means weight 0: never stale memory.
 class History {
   public:
-    /// Prepares this frame's pair; (re)allocates when `desc` differs.
+    /// Prepares this frame's pair; (re)allocates when `desc` differs. A frame that began without ending has left
+    /// `previous` a frame too old: that invalidates, too.
     void begin_frame(const gl::TextureDesc& desc, const std::string& label);
-    /// The current texture was written: next frame it is `previous`.
+    /// The current texture was written: it is `previous` from now on.
     void end_frame();
     void invalidate() { valid_ = false; }
     void release();  ///< frees both: the feature is off
@@ -24,6 +25,7 @@ class History {
     gl::Texture pair_[2];
     int current_ = 0;
     bool valid_ = false;
+    bool in_frame_ = false;
 };
 
 }  // namespace tyndall

@@ -51,13 +51,15 @@ class PassContext {
 /// Declares what a pass reads and writes.
 class PassBuilder {
   public:
-    TextureRef sample(TextureRef ref);         ///< texture fetches; an empty ref is ignored
+    /// Texture fetches of one level, or of any (-1); an empty ref is ignored. Attaching a sampled level in the
+    /// same pass is a failed check, unless as read-only depth.
+    TextureRef sample(TextureRef ref, int level = -1);
     TextureRef storage_write(TextureRef ref);  ///< imageStore; returns the new version
     TextureRef storage_read_write(TextureRef ref);
     TextureRef attach_color(TextureRef ref, int level = 0, int layer = -1);
     TextureRef attach_depth(TextureRef ref, int level = 0, int layer = -1);
     TextureRef attach_depth_read_only(TextureRef ref);
-    BufferRef read(BufferRef ref, Access access = Access::storage_read);
+    BufferRef read(BufferRef ref, Access access = Access::storage_read);  ///< an empty ref is ignored
     BufferRef write(BufferRef ref);  ///< storage write; returns the new version
     /// The pass has an effect outside the list (a read-back, a present): it is never culled.
     void keep();
@@ -65,14 +67,18 @@ class PassBuilder {
   private:
     friend class PassList;
     PassBuilder(PassList& list, std::size_t pass) : list_(list), pass_(pass) {}
+    template <class Ref>
+    Ref use(Ref ref, Access access, bool reads, bool writes, int level = -1);
+    TextureRef attach(TextureRef ref, int level, int layer, bool depth, bool writes);
     PassList& list_;
     std::size_t pass_;
 };
 
 /// Keeps transient textures from frame to frame: same desc, same texture. Textures unused for `keep_frames` frames
-/// are freed.
+/// are freed. One execution of a pass list is a frame.
 class TransientPool {
   public:
+    static constexpr int keep_frames = 60;
     TransientPool();
     ~TransientPool();
     TransientPool(const TransientPool&) = delete;
@@ -109,7 +115,8 @@ class PassList {
 
     /// Culls, computes lifetimes and barriers.
     void compile();
-    /// Runs the live passes, each in a debug group and a timer scope of its name. `counters` may be null.
+    /// Runs the live passes, each in a debug group and a timer scope of its name, then makes all shader writes
+    /// visible to whatever follows. `timer` and `counters` may be null; their begin_frame is the caller's.
     void execute(TransientPool& pool, gl::GpuTimer* timer = nullptr, gl::WorkCounters* counters = nullptr);
 
     struct PassInfo {
@@ -126,9 +133,12 @@ class PassList {
         gl::TextureDesc desc;
         bool transient = false;
         bool live = false;
-        GLuint id = 0;  ///< after execute
+        GLuint id = 0;                        ///< after execute
+        int first_pass = -1, last_pass = -1;  ///< live uses, as indices into passes()
+        int slot = -1;                        ///< transients of one slot share a texture, one after the other
     };
-    /// For the texture viewer: valid until the pool is used by the next frame.
+    /// For the texture viewer: valid until the pool is used by the next frame. A transient whose slot a later one
+    /// took shows that one's content: export what is to be looked at.
     [[nodiscard]] std::vector<TextureInfo> textures() const;
     [[nodiscard]] std::string to_text() const;
     [[nodiscard]] std::string to_dot() const;  ///< Graphviz
@@ -145,17 +155,19 @@ class PassList {
         GLuint buffer = 0;
         bool is_buffer = false, transient = false, exported = false;
         std::uint32_t version = 0;
-        int first_use = -1, last_use = -1;  ///< live passes
+        int first_use = -1, last_use = -1;  ///< live passes, as indices into passes_
+        int slot = -1;                      ///< of a live transient
     };
     struct Use {
         std::uint32_t resource;
         Access access;
         bool reads, writes;
+        int level;  ///< sampled; -1 any
     };
     struct AttachmentUse {
         std::uint32_t resource;
         int level, layer;
-        bool depth;
+        bool depth, writes;
     };
     struct Pass {
         std::vector<Use> uses;
@@ -163,11 +175,31 @@ class PassList {
         Execute execute;
         bool keep = false;
         std::size_t info = 0;
-        gl::Framebuffer framebuffer;
     };
+    /// A pooled texture and the transients that use it in turn.
+    struct Slot {
+        gl::TextureDesc desc;
+        int last_use;
+        gl::TextureView texture;  ///< during execute
+    };
+
+    std::uint32_t add_resource(Resource resource);
+    [[nodiscard]] const Resource& current(std::uint32_t index, std::uint32_t version) const;
+    [[nodiscard]] const Resource& used_by(std::size_t pass, std::uint32_t index) const;
+    void check_contents() const;
+    void check_feedback(const Pass& pass) const;
+    void cull();
+    void assign_slots();
+    void derive_barriers();
+    void bind_slots();
+    void label_first_uses(std::size_t pass);
+    void bind_framebuffer(std::size_t pass) const;
+
     std::vector<Resource> resources_;
     std::vector<Pass> passes_;
     std::vector<PassInfo> infos_;
+    std::vector<Slot> slots_;
+    TransientPool* pool_ = nullptr;  ///< during execute
     bool compiled_ = false;
 };
 
