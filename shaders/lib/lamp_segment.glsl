@@ -41,35 +41,33 @@ LampRay lamp_ray(vec3 origin, vec3 unit_direction, vec3 lamp_position) {
     return ray;
 }
 
-// int_a^b du / (h^2 + u^2) for b >= a, where h and [a, b] do not both touch 0. It is (atan(b/h) - atan(a/h)) / h, by one
-// atan of the difference, which does not cancel; for a small angle the series of atan, which holds to h = 0,
-// where the integral is (b - a) / (a b).
-float inverse_square_integral(float a, float b, float h) {
+// int_a^b du / (h^2 + u^2) where h and [a, b] do not both touch 0, and span = b - a >= 0. It is
+// (atan(b/h) - atan(a/h)) / h, by one atan of the difference, which does not cancel; for a small angle the series of
+// atan, which holds to h = 0, where the integral is (b - a) / (a b).
+float inverse_square_integral(float a, float b, float span, float h) {
     float product = h * h + a * b;
-    float z = h * (b - a);
+    float z = h * span;
     if (z < 0.2f * product) {
         float z2 = z * z / (product * product);
-        return (b - a) / product * (1.0f - z2 * (1.0f / 3.0f - z2 * (1.0f / 5.0f - z2 * (1.0f / 7.0f))));
+        return span / product * (1.0f - z2 * (1.0f / 3.0f - z2 * (1.0f / 5.0f - z2 * (1.0f / 7.0f))));
     }
     return atan(z, product) / h;
 }
 
-// Moments int v^n w(v) dv, n = 0..3 in xyzw, of a weight over a part of the segment; v runs from the segment's middle
-// m, so that d^2 = q + 2 m v + v^2 with q = h^2 + m^2.
+// Moments int v^n w dv, n = 0..3 in xyzw, of a weight over a part of the segment. u runs from the point nearest to the
+// lamp, v = u - m from the segment's middle m, so that d^2 = h^2 + u^2 = q + 2 m v + v^2 with q = h^2 + m^2.
 
-// w = 1 / d^2 on [v0, v1]. From v^2 / d^2 = 1 - (q + 2 m v) / d^2 each moment follows from the two before it.
-vec4 moments_inverse_square(float v0, float v1, float m, float h) {
+// w = 1 / d^2 on u in [a, b], span = b - a. As v^2 / d^2 = 1 - (q + 2 m v) / d^2, each moment follows from two others.
+vec4 moments_inverse_square(float a, float b, float span, float m, float h) {
     float q = h * h + m * m;
-    float a = m + v0;
-    float b = m + v1;
-    float e0 = inverse_square_integral(a, b, h);
+    float e0 = inverse_square_integral(a, b, span, h);
     float e1 = 0.5f * log((h * h + b * b) / (h * h + a * a)) - m * e0;
-    float e2 = (v1 - v0) - q * e0 - 2.0f * m * e1;
-    float e3 = 0.5f * (v1 - v0) * (v1 + v0) - q * e1 - 2.0f * m * e2;
+    float e2 = span - q * e0 - 2.0f * m * e1;
+    float e3 = span * (0.5f * (a + b) - m) - q * e1 - 2.0f * m * e2;
     return vec4(e0, e1, e2, e3);
 }
 
-// w = 1 / d^2 on [-r, r] where r^2 is small against q and the above would cancel. With k = m / sqrt(q) and
+// w = 1 / d^2 on v in [-r, r] where r^2 is small against q and the above would cancel. With k = m / sqrt(q) and
 // e = r / sqrt(q) the weight is the generating function of the Chebyshev polynomials, 1/q sum_n U_n(-k) (e v / r)^n.
 vec4 moments_inverse_square_far(float r, float m, float h) {
     float q = h * h + m * m;
@@ -84,14 +82,13 @@ vec4 moments_inverse_square_far(float r, float m, float h) {
     return 2.0f * r / q * unit * vec4(1.0f, r, r * r, r * r * r);
 }
 
-// w = 1 on [v0, v1].
-vec4 moments_constant(float v0, float v1) {
-    float a2 = v0 * v0;
-    float b2 = v1 * v1;
-    return vec4(v1 - v0, (b2 - a2) / 2.0f, (b2 * v1 - a2 * v0) / 3.0f, (b2 * b2 - a2 * a2) / 4.0f);
+// w = 1 on a span of v about the middle c.
+vec4 moments_constant(float c, float span) {
+    float s2 = span * span;
+    return span * vec4(1.0f, c, c * c + s2 / 12.0f, c * (c * c + 0.25f * s2));
 }
 
-// w = d^2 on [-r, r].
+// w = d^2 on v in [-r, r].
 vec4 moments_square(float r, float m, float h) {
     float r2 = r * r;
     float q = h * h + m * m;
@@ -115,6 +112,7 @@ LampSegment lamp_segment(LampRay ray, float t_begin, float t_end, float radius, 
     float h = ray.h;
     float a = t_begin - ray.t_closest;
     float b = t_end - ray.t_closest;
+    float span = t_end - t_begin;  // not b - a, which would lose the digits of a short segment
     float inverse_range_squared = inverse_range * inverse_range;
     LampSegment segment;
     segment.t0 = t_begin;
@@ -123,32 +121,35 @@ LampSegment lamp_segment(LampRay ray, float t_begin, float t_end, float radius, 
     segment.weight1 = 0.0f;
     if (inverse_range > 0.0f) {
         float reach = sqrt(max(1.0f / inverse_range_squared - h * h, 0.0f));
-        a = max(a, -reach);
-        b = min(b, reach);
+        if (a < -reach || b > reach) {
+            a = max(a, -reach);
+            b = min(b, reach);
+            span = b - a;
+        }
     }
-    if (b <= a) {
+    if (span <= 0.0f) {
         return segment;
     }
+    float r = 0.5f * span;
     float m = 0.5f * (a + b);
-    float r = 0.5f * (b - a);
 
     float sphere = max(radius, LAMP_MIN_RADIUS);
     float chord = sqrt(max(sphere * sphere - h * h, 0.0f));
     vec4 e = vec4(0.0f);
     if (h < sphere && a < chord && b > -chord) {
-        float v0 = max(-r, -chord - m);
-        float v1 = min(r, chord - m);
-        e = moments_constant(v0, v1) / (sphere * sphere);
-        if (v0 > -r) {
-            e += moments_inverse_square(-r, v0, m, h);
+        float enter = max(a, -chord);
+        float leave = min(b, chord);
+        e = moments_constant(0.5f * (enter + leave) - m, leave - enter) / (sphere * sphere);
+        if (a < -chord) {
+            e += moments_inverse_square(a, -chord, -chord - a, m, h);
         }
-        if (v1 < r) {
-            e += moments_inverse_square(v1, r, m, h);
+        if (b > chord) {
+            e += moments_inverse_square(chord, b, b - chord, m, h);
         }
     } else if (r * r < 0.01f * (h * h + m * m)) {
         e = moments_inverse_square_far(r, m, h);
     } else {
-        e = moments_inverse_square(-r, r, m, h);
+        e = moments_inverse_square(a, b, span, m, h);
     }
     e -= inverse_range_squared * inverse_range_squared * moments_square(r, m, h);
     if (e.x <= 0.0f) {
@@ -165,8 +166,8 @@ LampSegment lamp_segment(LampRay ray, float t_begin, float t_end, float radius, 
     float root = sqrt(1.0f + half_skew * half_skew);
     float near_share = 0.5f * (1.0f + half_skew / root);
     float middle = m + ray.t_closest;
-    segment.t0 = middle + r * clamp(mean + deviation * (half_skew - root), -1.0f, 1.0f);
-    segment.t1 = middle + r * clamp(mean + deviation * (half_skew + root), -1.0f, 1.0f);
+    segment.t0 = clamp(middle + r * (mean + deviation * (half_skew - root)), t_begin, t_end);
+    segment.t1 = clamp(middle + r * (mean + deviation * (half_skew + root)), t_begin, t_end);
     segment.weight0 = e.x * near_share;
     segment.weight1 = e.x * (1.0f - near_share);
     return segment;

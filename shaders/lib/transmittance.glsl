@@ -25,7 +25,8 @@ struct MediumSegment {
 MediumSegment integrate_segment(vec3 optical_depth, float path_length) {
     vec3 half_depth = 0.5f * optical_depth;
     vec3 half_transmittance = exp(-half_depth);
-    vec3 y2 = half_depth * half_depth;
+    vec3 y = min(half_depth, 0.5f);
+    vec3 y2 = y * y;
     vec3 thin = half_transmittance *
                 (1.0f + y2 * (1.0f / 6.0f + y2 * (1.0f / 120.0f + y2 * (1.0f / 5040.0f))));
     MediumSegment segment;

@@ -1,0 +1,113 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "shaders/lib/glm_subset.h"
+#include "tests/unit/shader_lib/quadrature.h"
+
+TYNDALL_GLSL_BEGIN
+#include "shaders/lib/phase.glsl"
+TYNDALL_GLSL_END
+
+namespace {
+
+using namespace tyndall;
+
+constexpr double kPi = 3.14159265358979323846;
+const std::vector<float> kAnisotropies{-0.99f, -0.95f, -0.9f, -0.5f, -0.1f, 0.0f, 0.1f, 0.5f, 0.9f, 0.95f, 0.99f};
+
+// Over the sphere. With 1 - s cos_theta = exp(-v), v from -ln 2 up, a peak of any width is resolved, and the
+// distance from the peak reaches the function with all its digits.
+template <typename F>
+double sphere_integral(const F& f, double sign) {
+    const auto over_v = [&](double v) {
+        const double from_peak = std::exp(-v);
+        return 2.0 * kPi * f(sign * (1.0 - from_peak)) * from_peak;
+    };
+    return test::integrate_panels(over_v, -std::log(2.0), 40.0, 500);
+}
+
+double hg_exact(double g, double c) {
+    return (1 - g * g) / (4 * kPi * std::pow(1 + g * g - 2 * g * c, 1.5));
+}
+
+double eval(int kind, float g, double c) {
+    return glsl::phase(kind, g, static_cast<float>(c));
+}
+
+TEST(Phase, IntegratesToOneOverTheSphere) {
+    for (int kind : {glsl::PHASE_ISOTROPIC, glsl::PHASE_HENYEY_GREENSTEIN, glsl::PHASE_SCHLICK}) {
+        for (float g : kAnisotropies) {
+            const double total = sphere_integral([&](double c) { return eval(kind, g, c); }, g < 0 ? -1 : 1);
+            EXPECT_NEAR(total, 1.0, 1e-4) << "kind " << kind << " g " << g;
+        }
+    }
+}
+
+TEST(Phase, MeanCosineOfHenyeyGreensteinIsG) {
+    for (float g : kAnisotropies) {
+        const double mean = sphere_integral([&](double c) { return c * eval(glsl::PHASE_HENYEY_GREENSTEIN, g, c); },
+                                            g < 0 ? -1 : 1);
+        EXPECT_NEAR(mean, g, 1e-4);
+    }
+}
+
+TEST(Phase, HenyeyGreensteinMatchesTheFormulaInDoublePrecision) {
+    for (float g : {-0.999f, -0.9f, -0.3f, 0.0f, 0.3f, 0.9f, 0.99f, 0.999f}) {
+        for (double c = -1.0; c <= 1.0; c += 1.0 / 512) {
+            const double expected = hg_exact(g, c);
+            EXPECT_NEAR(eval(glsl::PHASE_HENYEY_GREENSTEIN, g, c) / expected, 1.0, 2e-4) << "g " << g << " c " << c;
+        }
+    }
+}
+
+TEST(Phase, ForwardScatteringIsTheLargerForPositiveG) {
+    for (int kind : {glsl::PHASE_HENYEY_GREENSTEIN, glsl::PHASE_SCHLICK}) {
+        EXPECT_GT(eval(kind, 0.4f, 1.0), eval(kind, 0.4f, 0.0));
+        EXPECT_GT(eval(kind, 0.4f, 0.0), eval(kind, 0.4f, -1.0));
+        for (float g : kAnisotropies) {
+            for (double c : {-1.0, -0.7, 0.0, 0.2, 1.0}) {
+                EXPECT_EQ(eval(kind, g, c), eval(kind, -g, -c));
+            }
+        }
+    }
+}
+
+TEST(Phase, NoAnisotropyIsIsotropic) {
+    for (int kind : {glsl::PHASE_ISOTROPIC, glsl::PHASE_HENYEY_GREENSTEIN, glsl::PHASE_SCHLICK}) {
+        for (double c : {-1.0, -0.3, 0.0, 1.0}) {
+            EXPECT_NEAR(eval(kind, 0.0f, c), 1.0 / (4.0 * kPi), 1e-8);
+        }
+    }
+}
+
+// Total variation, half the integral of the absolute difference: the share of the light that goes elsewhere.
+TEST(Phase, SchlickIsCloseToHenyeyGreenstein) {
+    struct Case {
+        float g;
+        double bound;
+    };
+    for (const Case& k :
+         {Case{0.1f, 0.005}, Case{0.3f, 0.03}, Case{0.5f, 0.06}, Case{0.7f, 0.09}, Case{0.9f, 0.25}}) {
+        const double difference =
+            0.5 * sphere_integral(
+                      [&](double c) { return std::abs(eval(glsl::PHASE_SCHLICK, k.g, c) - hg_exact(k.g, c)); }, 1);
+        EXPECT_LT(difference, k.bound) << k.g;
+    }
+}
+
+TEST(Phase, StaysFiniteAndPositiveForEveryInput) {
+    for (int kind : {glsl::PHASE_HENYEY_GREENSTEIN, glsl::PHASE_SCHLICK}) {
+        for (float g : {-1.0f, -0.999f, -0.97f, 0.0f, 0.94f, 0.97f, 0.999f, 1.0f}) {
+            for (float c : {-1.0000002f, -1.0f, 0.0f, 1.0f, 1.0000002f}) {
+                const float p = glsl::phase(kind, g, c);
+                EXPECT_TRUE(std::isfinite(p) && p > 0.0f)
+                    << "kind " << kind << " g " << g << " c " << c << ": " << p;
+            }
+        }
+    }
+}
+
+}  // namespace
