@@ -11,6 +11,7 @@ int main(int argc, char** argv) {
     try {
         tyndall::add_render_command(app);
         tyndall::add_compare_command(app);
+        tyndall::add_flythrough_command(app);
         tyndall::add_list_command(app);
         app.parse(argc, argv);
         return 0;
