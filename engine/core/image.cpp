@@ -12,6 +12,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/files.h"
+#include "engine/core/image_png.h"
 
 namespace tyndall {
 namespace {
@@ -63,12 +64,17 @@ Image convert_channels(const Image& from, int alpha_channel, int channels) {
 Image decode_image(std::span<const std::uint8_t> bytes, const std::string& name, int channels) {
     const std::string_view format = sniff(bytes);
     if (format.empty()) fail(name, "read", "PNG, JPEG, EXR or HDR expected");
+    std::vector<std::uint8_t> chunks;
+    if (format == "png") bytes = chunks = critical_png_chunks(bytes, name);
+    OIIO::Filesystem::IOMemReader reader(const_cast<std::uint8_t*>(bytes.data()), bytes.size());
+    const auto input = OIIO::ImageInput::create("memory." + std::string(format), false, nullptr, &reader);
+    if (!input) fail(name, "read", OIIO::geterror());
     OIIO::ImageSpec config;
     config["oiio:UnassociatedAlpha"] = 1;  // straight alpha, as glTF has it
-    OIIO::Filesystem::IOMemReader reader(const_cast<std::uint8_t*>(bytes.data()), bytes.size());
-    const auto input = OIIO::ImageInput::open("memory." + std::string(format), &config, &reader);
-    if (!input) fail(name, "read", OIIO::geterror());
-    const OIIO::ImageSpec& spec = input->spec();
+    OIIO::ImageSpec spec;
+    if (!input->set_ioproxy(&reader) || !input->open("memory." + std::string(format), spec, config)) {
+        fail(name, "read", input->geterror());
+    }
     const std::size_t values = std::size_t(spec.width) * spec.height * spec.nchannels;
     if (spec.width < 1 || spec.height < 1 || spec.width > max_side || spec.height > max_side ||
         values > max_values) {
@@ -76,7 +82,8 @@ Image decode_image(std::span<const std::uint8_t> bytes, const std::string& name,
              fmt::format("it is {} x {}, at most {} a side expected", spec.width, spec.height, max_side));
     }
     Image image({spec.width, spec.height}, spec.nchannels);
-    if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, image.pixels.data())) {
+    const bool read = input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, image.pixels.data());
+    if (!read || input->has_error()) {  // a JPEG file that ends early is read, with an error
         fail(name, "read", input->geterror());
     }
     if (channels == 0 || channels == image.channels) return image;

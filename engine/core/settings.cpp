@@ -125,12 +125,13 @@ Found find_or_throw(const std::vector<SettingsSet::Group>& groups, std::string_v
 }  // namespace
 
 void SettingsSet::add(const SettingsTable& table, void* object) {
-    groups_.push_back({&table, object});
+    const SettingsSet::Group added{&table, object};
     for (const Setting& s : table.settings()) {
-        const bool key_is_new = find(groups_, s.key).setting == &s;
+        const bool key_is_new = find(groups_, s.key).setting == nullptr && find({added}, s.key).setting == &s;
         if (!key_is_new) detail::check_failed("key_is_new", s.key, __FILE__, __LINE__);
         if (!valid(s, s.default_value)) detail::check_failed("valid(default_value)", s.key, __FILE__, __LINE__);
     }
+    groups_.push_back(added);
 }
 
 void SettingsSet::set(std::string_view key, std::string_view value) {

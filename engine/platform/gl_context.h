@@ -17,27 +17,32 @@ struct ContextRequest {
     std::string title = "Tyndall";
     bool window = false;  ///< a visible window is wanted
     bool vsync = true;
-    bool debug = true;  ///< GL_DEBUG_OUTPUT, synchronous; messages go to the log and to `debug_message_count`
+    bool debug = true;  ///< GL_DEBUG_OUTPUT, synchronous; messages go to the log and to `debug_messages`
 };
 
 /// What the renderer may want to know of the driver.
 struct Capabilities {
     std::string vendor, renderer, version;
-    bool software = false;             ///< llvmpipe or softpipe: timer queries lie, see FrameTimer
+    bool software = false;             ///< llvmpipe or softpipe: timer queries lie, see gl::TimerMode
     bool indirect_parameters = false;  ///< ARB_indirect_parameters
     float max_anisotropy = 1;
     int max_texture_size = 0;
 };
 
-/// An OpenGL 4.5 core context. The renderer always draws to its own framebuffers; `present` is a blit.
+/// An OpenGL 4.5 core context. The renderer always draws to its own framebuffers; `present` is a blit. GL's
+/// lower-left origin holds everywhere and clip depth is 0..1 (glClipControl), as reversed depth needs. Several may
+/// exist, all on one thread, and one is current; GL objects are freed while theirs is.
 class GlContext {
   public:
-    virtual ~GlContext() = default;
+    using Loader = void (*(*)(const char* name))();  ///< a GetProcAddress
+
+    virtual ~GlContext();
     GlContext() = default;
     GlContext(const GlContext&) = delete;
     GlContext& operator=(const GlContext&) = delete;
 
-    virtual void make_current() = 0;
+    /// Releases the context that is current, makes this one current and loads its functions.
+    void make_current();
     [[nodiscard]] virtual ContextKind kind() const = 0;
     /// Takes pending window events into `input()`. Headless: does nothing.
     virtual void poll() {}
@@ -53,10 +58,18 @@ class GlContext {
     [[nodiscard]] Input& input() { return input_; }
 
   protected:
-    /// Loads the functions, checks for 4.5, fills capabilities_, hooks debug output. Called by each back end.
-    void initialise(void* (*get_proc_address)(const char*), bool debug);
+    virtual void bind() = 0;
+    virtual void unbind() = 0;
+    /// Makes current, checks for 4.5 core, fills capabilities_, hooks debug output. Called by each back end when
+    /// its context exists. Throws Error.
+    void initialise(Loader loader, bool debug);
+    /// Called by the destructor of each back end before its context goes.
+    void release();
     Capabilities capabilities_;
     Input input_;
+
+  private:
+    Loader loader_ = nullptr;
 };
 
 /// Makes a context current. Throws Error: which kind failed and why ("no display", "OpenGL 3.3, 4.5 needed").

@@ -101,4 +101,7 @@ struct Input {
     void begin_poll();
 };
 
+/// A stick's position with the inner `radius` (a worn stick's rest) cut away; the rest is stretched back to 0..1.
+[[nodiscard]] glm::vec2 remove_dead_zone(glm::vec2 stick, float radius = 0.15f);
+
 }  // namespace tyndall

@@ -1,0 +1,38 @@
+#include "tests/gpu/support/gl_test.h"
+
+#include <glad/gl.h>
+
+#include <memory>
+
+namespace tyndall {
+namespace {
+
+std::unique_ptr<GlContext> shared_context;
+
+/// Frees the context before the driver's own exit handlers run.
+class FreeContext : public ::testing::Environment {
+  public:
+    void TearDown() override { shared_context.reset(); }
+};
+[[maybe_unused]] ::testing::Environment* const environment = ::testing::AddGlobalTestEnvironment(new FreeContext);
+
+}  // namespace
+
+GlContext& GlTest::context() {
+    if (!shared_context) shared_context = create_context({.kind = ContextKind::egl});
+    return *shared_context;
+}
+
+GlTest::GlTest() {
+    context().make_current();
+    reset_debug_messages();
+}
+
+GlTest::~GlTest() {
+    context().make_current();
+    glFinish();
+    EXPECT_EQ(debug_messages().count, 0) << debug_messages().last;
+    EXPECT_EQ(glGetError(), GLenum(GL_NO_ERROR));
+}
+
+}  // namespace tyndall
