@@ -1,0 +1,177 @@
+#include "sample_game/player.h"
+
+#include <BulletCollision/CollisionDispatch/btGhostObject.h>
+#include <BulletDynamics/Character/btKinematicCharacterController.h>
+#include <btBulletDynamicsCommon.h>
+
+#include <algorithm>
+#include <glm/gtc/constants.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+
+namespace tyndall {
+namespace {
+
+constexpr float eye_height = 1.65f;
+constexpr float capsule_radius = 0.3f;
+constexpr float capsule_height = 1.75f;  // over all
+constexpr float step_height = 0.3f;
+constexpr float walk_speed = 2.4f, run_speed = 5.0f, fly_speed = 6.0f, fast_fly_speed = 24.0f;  // m/s
+constexpr float jump_speed = 4.2f;                                                              // m/s: 0.9 m high
+constexpr float gravity = 9.81f;
+constexpr float pointer_gain = 0.0022f;  // rad per pixel
+constexpr float stick_gain = 2.6f;       // rad/s
+constexpr float max_pitch = 1.54f;
+constexpr double physics_step = 1.0 / 120.0;
+constexpr float fall_margin = 30.0f;  // m below the level's lowest point
+
+btVector3 to_bullet(glm::vec3 v) {
+    return {v.x, v.y, v.z};
+}
+
+bool is_solid(const Scene& scene, const Node& node, const Mesh& mesh) {
+    const Material& material = scene.materials[mesh.material];
+    return !material.alpha_mask && !material.alpha_blend && !node.dynamic;
+}
+
+}  // namespace
+
+struct Player::World {
+    btDefaultCollisionConfiguration configuration;
+    btCollisionDispatcher dispatcher{&configuration};
+    btDbvtBroadphase broadphase;
+    btSequentialImpulseConstraintSolver solver;
+    btDiscreteDynamicsWorld world{&dispatcher, &broadphase, &solver, &configuration};
+    btGhostPairCallback ghost_callback;
+    btTriangleMesh triangles{true, false};
+    std::unique_ptr<btBvhTriangleMeshShape> level_shape;
+    btCollisionObject level;
+    btCapsuleShape capsule{capsule_radius, capsule_height - 2 * capsule_radius};
+    btPairCachingGhostObject ghost;
+    std::unique_ptr<btKinematicCharacterController> character;
+
+    explicit World(const Scene& scene) {
+        for (const Node& node : scene.nodes)
+            for (const int index : node.meshes)
+                if (is_solid(scene, node, scene.meshes[index])) add(scene.meshes[index], node.world);
+        broadphase.getOverlappingPairCache()->setInternalGhostPairCallback(&ghost_callback);
+        if (triangles.getNumTriangles() > 0) {
+            level_shape = std::make_unique<btBvhTriangleMeshShape>(&triangles, true);
+            level.setCollisionShape(level_shape.get());
+            world.addCollisionObject(&level, btBroadphaseProxy::StaticFilter,
+                                     btBroadphaseProxy::AllFilter ^ btBroadphaseProxy::StaticFilter);
+        }
+        ghost.setCollisionShape(&capsule);
+        ghost.setCollisionFlags(btCollisionObject::CF_CHARACTER_OBJECT);
+        world.addCollisionObject(&ghost, btBroadphaseProxy::CharacterFilter,
+                                 btBroadphaseProxy::StaticFilter | btBroadphaseProxy::DefaultFilter);
+        character =
+            std::make_unique<btKinematicCharacterController>(&ghost, &capsule, step_height, btVector3(0, 1, 0));
+        character->setGravity(btVector3(0, -gravity, 0));
+        character->setJumpSpeed(jump_speed);
+        character->setFallSpeed(40);
+        character->setMaxSlope(glm::radians(50.0f));
+        world.addAction(character.get());
+    }
+
+    ~World() {
+        world.removeAction(character.get());
+        world.removeCollisionObject(&ghost);
+        if (level_shape) world.removeCollisionObject(&level);
+    }
+
+    void add(const Mesh& mesh, const glm::mat4& transform) {
+        const auto corner = [&](std::size_t i) {
+            return to_bullet(glm::vec3(transform * glm::vec4(mesh.vertices[mesh.indices[i]].position, 1)));
+        };
+        for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
+            triangles.addTriangle(corner(i), corner(i + 1), corner(i + 2));
+    }
+
+    void warp(glm::vec3 eye) {
+        character->reset(&world);
+        character->warp(to_bullet(eye + glm::vec3(0, capsule_height / 2 - eye_height, 0)));
+    }
+
+    [[nodiscard]] glm::vec3 eye() const {
+        const btVector3 center = ghost.getWorldTransform().getOrigin();
+        return {center.x(), center.y() - capsule_height / 2 + eye_height, center.z()};
+    }
+};
+
+Player::Player(const Scene& scene) : world_(std::make_unique<World>(scene)) {
+    if (!scene.bounds.empty()) lowest_ = scene.bounds.min.y - fall_margin;
+    if (const Node* start = scene.find_node("player_start")) {
+        const glm::vec3 feet(start->world[3]);
+        place(feet + glm::vec3(0, eye_height, 0), -glm::vec3(start->world[2]));
+    } else if (!scene.cameras.empty()) {
+        const glm::mat4& camera = scene.nodes[scene.cameras.front().node].world;
+        place(glm::vec3(camera[3]), -glm::vec3(camera[2]));
+        flying_ = true;
+    }
+}
+
+Player::~Player() = default;
+
+void Player::place(glm::vec3 eye, glm::vec3 direction) {
+    const glm::vec3 d = glm::normalize(direction);
+    yaw_ = std::atan2(-d.x, -d.z);
+    pitch_ = std::clamp(std::asin(d.y), -max_pitch, max_pitch);
+    eye_ = start_ = eye;
+    start_direction_ = d;
+    world_->warp(eye);
+}
+
+glm::vec3 Player::direction() const {
+    return {-std::sin(yaw_) * std::cos(pitch_), std::sin(pitch_), -std::cos(yaw_) * std::cos(pitch_)};
+}
+
+glm::mat4 Player::camera_to_world() const {
+    glm::mat4 m = glm::translate(glm::mat4(1), eye_);
+    m = glm::rotate(m, yaw_, glm::vec3(0, 1, 0));
+    return glm::rotate(m, pitch_, glm::vec3(1, 0, 0));
+}
+
+void Player::set_flying(bool flying) {
+    if (flying_ && !flying) world_->warp(eye_);
+    flying_ = flying;
+}
+
+bool Player::on_ground() const {
+    return !flying_ && world_->character->onGround();
+}
+
+void Player::update(const Input& input, double dt, bool look) {
+    const float step = static_cast<float>(dt);
+    const Input::Gamepad& pad = input.gamepad;
+    if (look) {
+        yaw_ -= static_cast<float>(input.pointer_delta.x) * pointer_gain;
+        pitch_ -= static_cast<float>(input.pointer_delta.y) * pointer_gain;
+    }
+    yaw_ -= pad.right.x * stick_gain * step;
+    pitch_ = std::clamp(pitch_ - pad.right.y * stick_gain * step, -max_pitch, max_pitch);
+    yaw_ = std::remainder(yaw_, glm::two_pi<float>());
+
+    const auto axis = [&](Key positive, Key negative) {
+        return static_cast<float>(input.down(positive)) - static_cast<float>(input.down(negative));
+    };
+    glm::vec2 move(axis(Key::d, Key::a) + pad.left.x, axis(Key::w, Key::s) - pad.left.y);
+    if (glm::length(move) > 1) move = glm::normalize(move);
+    const glm::vec3 forward = flying_ ? direction() : glm::vec3(-std::sin(yaw_), 0, -std::cos(yaw_));
+    const glm::vec3 right(std::cos(yaw_), 0, -std::sin(yaw_));
+    const bool fast = input.down(Key::shift);
+
+    if (flying_) {
+        const float up = axis(Key::space, Key::control) + pad.up - pad.down;
+        eye_ +=
+            (forward * move.y + right * move.x + glm::vec3(0, up, 0)) * (fast ? fast_fly_speed : fly_speed) * step;
+        return;
+    }
+    const glm::vec3 velocity = (forward * move.y + right * move.x) * (fast ? run_speed : walk_speed);
+    world_->character->setWalkDirection(to_bullet(velocity * static_cast<float>(physics_step)));
+    if ((input.pressed(Key::space) || pad.jump) && world_->character->onGround()) world_->character->jump();
+    world_->world.stepSimulation(step, 16, static_cast<btScalar>(physics_step));
+    eye_ = world_->eye();
+    if (eye_.y < lowest_) place(start_, start_direction_);
+}
+
+}  // namespace tyndall

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <glm/glm.hpp>
+#include <memory>
+
+#include "engine/platform/input.h"
+#include "engine/scene/scene.h"
+
+namespace tyndall {
+
+/// First-person walker in a level: a capsule (Bullet's kinematic character) against the level's solid triangles, or
+/// a free camera in fly mode. Metres, seconds, radians.
+class Player {
+  public:
+    /// Collision is every mesh that is neither alpha-masked (leaves) nor blended nor animated.
+    explicit Player(const Scene& scene);
+    ~Player();
+
+    /// Puts the eye at `eye`, looking along `direction`, at rest.
+    void place(glm::vec3 eye, glm::vec3 direction);
+    /// Walks or flies for `dt` seconds. `look` says whether the pointer turns the view.
+    void update(const Input& input, double dt, bool look);
+
+    [[nodiscard]] glm::vec3 eye() const { return eye_; }
+    [[nodiscard]] glm::vec3 direction() const;
+    [[nodiscard]] glm::mat4 camera_to_world() const;
+    [[nodiscard]] bool flying() const { return flying_; }
+    void set_flying(bool flying);
+    [[nodiscard]] bool on_ground() const;
+
+  private:
+    struct World;
+    std::unique_ptr<World> world_;
+    glm::vec3 eye_{0};
+    glm::vec3 start_{0};
+    glm::vec3 start_direction_{0, 0, -1};
+    float yaw_ = 0, pitch_ = 0;
+    float lowest_ = 0;  ///< below this the player has fallen out of the level
+    bool flying_ = false;
+};
+
+}  // namespace tyndall
