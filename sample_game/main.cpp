@@ -9,6 +9,7 @@ int main(int argc, char** argv) {
     app.require_subcommand(1);
     tyndall::init_logging();
     try {
+        tyndall::add_play_command(app);
         tyndall::add_render_command(app);
         tyndall::add_compare_command(app);
         tyndall::add_flythrough_command(app);

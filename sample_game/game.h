@@ -1,0 +1,19 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "sample_game/session.h"
+
+namespace tyndall {
+
+struct GameOptions {
+    int frames = 0;                                   ///< quit after so many; 0: when the window is closed
+    std::optional<std::filesystem::path> screenshot;  ///< taken of the last frame, with what is on screen
+    double fixed_step = 0;                            ///< s; 0: the wall clock
+};
+
+/// The game's loop, until the window is closed. Keys: README.
+void play(Session& session, const GameOptions& options);
+
+}  // namespace tyndall

@@ -1,0 +1,158 @@
+#include "sample_game/ui/debug_ui.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+#include <imgui_stdlib.h>
+
+#include <nlohmann/json.hpp>
+
+#include "engine/core/error.h"
+#include "engine/core/files.h"
+#include "sample_game/ui/imgui_input.h"
+#include "sample_game/ui/passes_panel.h"
+#include "sample_game/ui/settings_panel.h"
+
+namespace tyndall {
+namespace {
+
+const ImVec4 red{1.0f, 0.35f, 0.3f, 1.0f};
+constexpr ImGuiWindowFlags overlay_flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize |
+                                           ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing |
+                                           ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoInputs;
+
+void style() {
+    ImGui::StyleColorsDark();
+    ImGuiStyle& s = ImGui::GetStyle();
+    s.WindowRounding = 6;
+    s.FrameRounding = 4;
+    s.Colors[ImGuiCol_WindowBg] = ImVec4(0.06f, 0.06f, 0.07f, 0.88f);
+    s.Colors[ImGuiCol_TitleBgActive] = ImVec4(0.35f, 0.22f, 0.09f, 1);
+    s.Colors[ImGuiCol_Header] = ImVec4(0.42f, 0.28f, 0.12f, 0.6f);
+    s.Colors[ImGuiCol_HeaderHovered] = ImVec4(0.55f, 0.36f, 0.15f, 0.8f);
+    s.Colors[ImGuiCol_SliderGrab] = s.Colors[ImGuiCol_CheckMark] = ImVec4(0.95f, 0.65f, 0.25f, 1);
+    s.Colors[ImGuiCol_FrameBg] = ImVec4(0.2f, 0.19f, 0.18f, 0.7f);
+}
+
+template <class Item>
+void choose(const char* label, const std::vector<Item>& items, std::size_t current,
+            const std::function<void(std::size_t)>& chosen) {
+    if (!ImGui::BeginCombo(label, items[current].name.c_str())) return;
+    for (std::size_t i = 0; i < items.size(); ++i)
+        if (ImGui::Selectable(items[i].name.c_str(), i == current)) chosen(i);
+    ImGui::EndCombo();
+}
+
+}  // namespace
+
+void DebugUi::ContextDeleter::operator()(ImGuiContext* context) const {
+    ImGui::DestroyContext(context);
+}
+
+DebugUi::DebugUi(ShaderLibrary& shaders) : context_(ImGui::CreateContext()) {
+    ImGui::GetIO().IniFilename = nullptr;
+    style();
+    map_imgui_keys();
+    renderer_ = std::make_unique<ImguiRenderer>(shaders);
+    viewer_ = std::make_unique<TextureViewer>(shaders);
+}
+
+DebugUi::~DebugUi() = default;
+
+bool DebugUi::wants_keyboard() const {
+    return visible && ImGui::GetIO().WantTextInput;
+}
+bool DebugUi::wants_pointer() const {
+    return visible && ImGui::GetIO().WantCaptureMouse;
+}
+
+void DebugUi::hud_line(const Session& session, const Hud& hud) const {
+    ImGui::SetNextWindowPos(ImVec2(10, static_cast<float>(session.size.y) - 10), ImGuiCond_Always, ImVec2(0, 1));
+    ImGui::SetNextWindowBgAlpha(0.45f);
+    if (ImGui::Begin("hud", nullptr, overlay_flags)) {
+        const bool timed = !session.renderer->timings().empty();
+        const std::string volumetrics =
+            timed ? fmt::format("{:.2f} ms volumetrics", pass_milliseconds(*session.renderer, "volumetrics/"))
+                  : std::string("volumetrics not timed");
+        ImGui::Text("%s  |  %.1f ms frame  |  %s  |  %dx%d  |  %s", session.settings.get("technique").c_str(),
+                    hud.frame_ms, volumetrics.c_str(), session.size.x, session.size.y, hud.place.c_str());
+        if (!hud.message.empty()) ImGui::TextUnformatted(hud.message.c_str());
+    }
+    ImGui::End();
+}
+
+void DebugUi::shader_errors(const ShaderLibrary& shaders) const {
+    if (shaders.errors().empty()) return;
+    ImGui::SetNextWindowPos(ImVec2(10, 10));
+    ImGui::SetNextWindowBgAlpha(0.8f);
+    if (ImGui::Begin("shader errors", nullptr, overlay_flags))
+        for (const std::string& error : shaders.errors()) ImGui::TextColored(red, "%s", error.c_str());
+    ImGui::End();
+}
+
+void DebugUi::presets(Session& session) {
+    if (!ImGui::CollapsingHeader("Presets")) return;
+    const auto attempt = [&](const std::string& done, const std::function<void()>& action) {
+        try {
+            action();
+            preset_message_ = done;
+        } catch (const Error& e) {
+            preset_message_ = e.what();
+        }
+    };
+    for (const std::string& name : preset_names()) {
+        if (ImGui::Button(name.c_str())) attempt(name + " applied", [&] { apply_preset(session.settings, name); });
+        ImGui::SameLine();
+    }
+    if (ImGui::Button("defaults")) session.settings.reset_to_defaults();
+    ImGui::InputText("file", &preset_path_);
+    if (ImGui::Button("load")) attempt("loaded", [&] { apply_preset(session.settings, preset_path_); });
+    ImGui::SameLine();
+    if (ImGui::Button("save"))
+        attempt("saved", [&] { write_text(preset_path_, session.settings.to_json().dump(2) + "\n"); });
+    ImGui::TextWrapped("%s", preset_message_.c_str());
+}
+
+DebugUi::Requests DebugUi::window(Session& session, LevelLogic& logic) {
+    Requests requests;
+    ImGui::SetNextWindowPos(ImVec2(12, 12), ImGuiCond_FirstUseEver);
+    ImGui::SetNextWindowSize(ImVec2(430, static_cast<float>(session.size.y) - 70), ImGuiCond_FirstUseEver);
+    if (ImGui::Begin("Tyndall  (F1)", &visible)) {
+        choose("time of day", logic.day_times(), logic.day_time(),
+               [&](std::size_t i) { logic.set_day_time(session.scene, i); });
+        choose("fog", logic.fogs(), logic.fog(), [&](std::size_t i) { logic.set_fog(session.scene, i); });
+        requests.screenshot = ImGui::Button("screenshot (F2)");
+        if (ImGui::BeginTabBar("tabs")) {
+            if (ImGui::BeginTabItem("Settings")) {
+                presets(session);
+                settings_panel(session.settings);
+                ImGui::EndTabItem();
+            }
+            if (ImGui::BeginTabItem("Passes")) {
+                passes_panel(session);
+                ImGui::EndTabItem();
+            }
+            if (ImGui::BeginTabItem("Textures")) {
+                viewer_->panel(session.renderer->passes());
+                ImGui::EndTabItem();
+            }
+            ImGui::EndTabBar();
+        }
+    }
+    ImGui::End();
+    return requests;
+}
+
+DebugUi::Requests DebugUi::frame(Session& session, LevelLogic& logic, const Hud& hud, double dt,
+                                 bool pointer_is_free) {
+    feed_imgui(session.context->input(), session.size, dt, pointer_is_free);
+    ImGui::NewFrame();
+    Requests requests;
+    if (hud_visible) hud_line(session, hud);
+    shader_errors(*session.shaders);
+    if (visible) requests = window(session, logic);
+    ImGui::Render();
+    renderer_->draw(session.renderer->display_framebuffer(), session.renderer->size());
+    return requests;
+}
+
+}  // namespace tyndall

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <string>
+
+#include "sample_game/level_logic.h"
+#include "sample_game/session.h"
+#include "sample_game/ui/imgui_renderer.h"
+#include "sample_game/ui/texture_viewer.h"
+
+struct ImGuiContext;
+
+namespace tyndall {
+
+/// The F1 window and the HUD line, with Dear ImGui. One per GL context.
+class DebugUi {
+  public:
+    explicit DebugUi(ShaderLibrary& shaders);
+    ~DebugUi();
+    DebugUi(const DebugUi&) = delete;
+    DebugUi& operator=(const DebugUi&) = delete;
+
+    struct Hud {
+        std::string place;
+        double frame_ms = 0;
+        std::string message;  ///< shown for a moment: "screenshot saved"
+    };
+    struct Requests {
+        bool screenshot = false;
+    };
+    /// Builds and draws over the renderer's display framebuffer. `pointer_is_free`: not captured for mouse look.
+    Requests frame(Session& session, LevelLogic& logic, const Hud& hud, double dt, bool pointer_is_free);
+
+    bool visible = false;     ///< the debug window (F1)
+    bool hud_visible = true;  ///< the HUD line (H)
+    [[nodiscard]] bool wants_keyboard() const;
+    [[nodiscard]] bool wants_pointer() const;
+
+  private:
+    void hud_line(const Session& session, const Hud& hud) const;
+    void shader_errors(const ShaderLibrary& shaders) const;
+    Requests window(Session& session, LevelLogic& logic);
+    void presets(Session& session);
+
+    struct ContextDeleter {
+        void operator()(ImGuiContext* context) const;
+    };
+    std::unique_ptr<ImGuiContext, ContextDeleter> context_;
+    std::unique_ptr<ImguiRenderer> renderer_;
+    std::unique_ptr<TextureViewer> viewer_;
+    std::string preset_path_ = "tyndall-preset.json";
+    std::string preset_message_;
+};
+
+}  // namespace tyndall

@@ -1,0 +1,57 @@
+#include "sample_game/ui/imgui_input.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace tyndall {
+
+void map_imgui_keys() {
+    ImGuiIO& io = ImGui::GetIO();
+    const auto map = [&](ImGuiKey_ imgui, Key key) { io.KeyMap[imgui] = static_cast<int>(key); };
+    map(ImGuiKey_Tab, Key::tab);
+    map(ImGuiKey_LeftArrow, Key::left);
+    map(ImGuiKey_RightArrow, Key::right);
+    map(ImGuiKey_UpArrow, Key::up);
+    map(ImGuiKey_DownArrow, Key::down);
+    map(ImGuiKey_PageUp, Key::page_up);
+    map(ImGuiKey_PageDown, Key::page_down);
+    map(ImGuiKey_Home, Key::home);
+    map(ImGuiKey_End, Key::end);
+    map(ImGuiKey_Delete, Key::del);
+    map(ImGuiKey_Backspace, Key::backspace);
+    map(ImGuiKey_Space, Key::space);
+    map(ImGuiKey_Enter, Key::enter);
+    map(ImGuiKey_Escape, Key::escape);
+    map(ImGuiKey_A, Key::a);
+    map(ImGuiKey_C, Key::c);
+    map(ImGuiKey_V, Key::v);
+    map(ImGuiKey_X, Key::x);
+    map(ImGuiKey_Y, Key::y);
+    map(ImGuiKey_Z, Key::z);
+}
+
+void feed_imgui(const Input& input, glm::ivec2 size, double dt, bool pointer_is_free) {
+    ImGuiIO& io = ImGui::GetIO();
+    io.DisplaySize = ImVec2(static_cast<float>(size.x), static_cast<float>(size.y));
+    io.DeltaTime = std::max(static_cast<float>(dt), 1e-5f);
+    constexpr float nowhere = -std::numeric_limits<float>::max();
+    io.MousePos = pointer_is_free ? ImVec2(static_cast<float>(input.pointer.x), static_cast<float>(input.pointer.y))
+                                  : ImVec2(nowhere, nowhere);
+    const auto button = [&](MouseButton b) {
+        const auto i = static_cast<std::size_t>(b);
+        return pointer_is_free && (input.buttons_down[i] || input.buttons_pressed[i]);
+    };
+    io.MouseDown[0] = button(MouseButton::left);
+    io.MouseDown[1] = button(MouseButton::right);
+    io.MouseDown[2] = button(MouseButton::middle);
+    io.MouseWheel = static_cast<float>(input.scroll);
+    for (int key = 0; key < static_cast<int>(Key::count); ++key) io.KeysDown[key] = input.keys_down[key];
+    io.KeyShift = input.down(Key::shift);
+    io.KeyCtrl = input.down(Key::control);
+    io.KeyAlt = input.down(Key::alt);
+    io.AddInputCharactersUTF8(input.text.c_str());
+}
+
+}  // namespace tyndall

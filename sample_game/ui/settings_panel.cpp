@@ -1,0 +1,102 @@
+#include "sample_game/ui/settings_panel.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+
+namespace tyndall {
+namespace {
+
+bool combo(const char* label, int& index, const std::vector<std::string>& names) {
+    bool changed = false;
+    if (ImGui::BeginCombo(label, names[index].c_str())) {
+        for (int i = 0; i < static_cast<int>(names.size()); ++i)
+            if (ImGui::Selectable(names[i].c_str(), i == index)) {
+                index = i;
+                changed = true;
+            }
+        ImGui::EndCombo();
+    }
+    return changed;
+}
+
+/// Draws the widget; true when `value` was changed.
+bool edit(const Setting& s, double& value) {
+    const std::string label = fmt::format("{}##{}", s.label, s.key);
+    const ImGuiSliderFlags flags =
+        ImGuiSliderFlags_AlwaysClamp | (s.scale == SettingScale::logarithmic ? ImGuiSliderFlags_Logarithmic : 0);
+    switch (s.type) {
+        case SettingType::boolean: {
+            bool b = value != 0;
+            const bool changed = ImGui::Checkbox(label.c_str(), &b);
+            value = b ? 1 : 0;
+            return changed;
+        }
+        case SettingType::choice: {
+            int i = static_cast<int>(value);
+            const bool changed = combo(label.c_str(), i, s.choices);
+            value = i;
+            return changed;
+        }
+        case SettingType::integer: {
+            if (!s.allowed.empty()) {
+                std::vector<std::string> names;
+                for (const double v : s.allowed) names.push_back(fmt::format("{}", v));
+                const auto found = std::find(s.allowed.begin(), s.allowed.end(), value);
+                int i = found == s.allowed.end() ? 0 : static_cast<int>(found - s.allowed.begin());
+                const bool changed = combo(label.c_str(), i, names);
+                value = s.allowed[i];
+                return changed;
+            }
+            int i = static_cast<int>(value);
+            const bool changed =
+                ImGui::SliderInt(label.c_str(), &i, static_cast<int>(s.min), static_cast<int>(s.max), "%d", flags);
+            value = i;
+            return changed;
+        }
+        case SettingType::real: {
+            float f = static_cast<float>(value);
+            const bool changed = ImGui::SliderFloat(label.c_str(), &f, static_cast<float>(s.min),
+                                                    static_cast<float>(s.max), "%.3g", flags);
+            value = f;
+            return changed;
+        }
+    }
+    return false;
+}
+
+const char* effect_text(SettingEffect effect) {
+    switch (effect) {
+        case SettingEffect::uniform:
+            return "a change costs nothing";
+        case SettingEffect::resource:
+            return "a change reallocates textures";
+        case SettingEffect::permutation:
+            return "a change selects another shader";
+    }
+    return "";
+}
+
+void row(const Setting& s, void* object) {
+    double value = s.get(object);
+    if (edit(s, value)) s.set(object, value);
+    if (ImGui::IsItemHovered())
+        ImGui::SetTooltip("%s%s%s\nkey: %s, default %g; %s\nright click: reset", s.help.c_str(),
+                          s.unit.empty() ? "" : "\nunit: ", s.unit.c_str(), s.key.c_str(), s.default_value,
+                          effect_text(s.effect));
+    if (ImGui::IsItemClicked(ImGuiMouseButton_Right)) s.set(object, s.default_value);
+}
+
+}  // namespace
+
+void settings_panel(SettingsSet& settings) {
+    for (const SettingsSet::Group& group : settings.groups()) {
+        if (!ImGui::CollapsingHeader(group.table->title().c_str(), ImGuiTreeNodeFlags_DefaultOpen)) continue;
+        ImGui::PushItemWidth(ImGui::GetContentRegionAvail().x * 0.5f);
+        for (const Setting& s : group.table->settings()) row(s, group.object);
+        ImGui::PopItemWidth();
+    }
+}
+
+}  // namespace tyndall

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <string>
+
+#include "engine/gl/framebuffer.h"
+#include "engine/gl/sampler.h"
+#include "engine/gl/texture.h"
+#include "engine/graph/pass_list.h"
+#include "engine/shader/shader_library.h"
+
+namespace tyndall {
+
+/// Shows any texture of the frame's pass list: layers, faces and slices, one channel or three, a value range.
+class TextureViewer {
+  public:
+    explicit TextureViewer(ShaderLibrary& shaders);
+    void panel(const PassList& passes);
+
+  private:
+    void draw(const gl::TextureView& texture);
+    ShaderLibrary& shaders_;
+    gl::Texture picture_;
+    gl::Framebuffer framebuffer_;
+    gl::Sampler sampler_;
+    std::string selected_;
+    int slice_ = 0, channels_ = 0;
+    float low_ = 0, high_ = 1;
+};
+
+}  // namespace tyndall
