@@ -54,74 +54,64 @@ float inverse_square_integral(float a, float b, float span, float h) {
     return atan(z, product) / h;
 }
 
-// Moments int v^n w dv, n = 0..3 in xyzw, of a weight over a part of the segment. u runs from the point nearest to the
-// lamp, v = u - m from the segment's middle m, so that d^2 = h^2 + u^2 = q + 2 m v + v^2 with q = h^2 + m^2.
-
-// w = 1 / d^2 on u in [a, b], span = b - a. As v^2 / d^2 = 1 - (q + 2 m v) / d^2, each moment follows from two others.
-vec4 moments_inverse_square(float a, float b, float span, float m, float h) {
-    float q = h * h + m * m;
-    float e0 = inverse_square_integral(a, b, span, h);
-    float e1 = 0.5f * log((h * h + b * b) / (h * h + a * a)) - m * e0;
-    float e2 = span - q * e0 - 2.0f * m * e1;
-    float e3 = span * (0.5f * (a + b) - m) - q * e1 - 2.0f * m * e2;
-    return vec4(e0, e1, e2, e3);
+// The inverse: how far u advances from a until the integral of 1 / (h^2 + u^2) reaches a value. With y = h * integral,
+// the angle swept as seen from the lamp, u - a = sin(y) (h^2 + a^2) / (h cos(y) - a sin(y)); holds to h = 0.
+float inverse_square_advance(float a, float h, float integral) {
+    float y = h * integral;
+    float y2 = y * y;
+    float s = y < 0.2f ? integral * (1.0f - y2 * (1.0f / 6.0f - y2 * (1.0f / 120.0f))) : sin(y) / h;
+    return s * (h * h + a * a) / max(cos(y) - a * s, 1.0e-20f);
 }
 
-// w = 1 / d^2 on v in [-r, r] where r^2 is small against q and the above would cancel. With k = m / sqrt(q) and
-// e = r / sqrt(q) the weight is the generating function of the Chebyshev polynomials, 1/q sum_n U_n(-k) (e v / r)^n.
-vec4 moments_inverse_square_far(float r, float m, float h) {
-    float q = h * h + m * m;
-    float k2 = m * m / q;
-    float e2 = r * r / q;
-    float u1 = -2.0f * m * r / q;  // U_1 e
-    float u2 = (4.0f * k2 - 1.0f) * e2;
-    float u3 = u1 * (4.0f * k2 - 2.0f) * e2;
-    float u4 = ((16.0f * k2 - 12.0f) * k2 + 1.0f) * e2 * e2;
-    vec4 unit = vec4(1.0f + u2 / 3.0f + u4 / 5.0f, u1 / 3.0f + u3 / 5.0f, 1.0f / 3.0f + u2 / 5.0f + u4 / 7.0f,
-                     u1 / 5.0f + u3 / 7.0f);
-    return 2.0f * r / q * unit * vec4(1.0f, r, r * r, r * r * r);
+// u - a at which the integral from a of 1 / max(d^2, radius^2) reaches a value. The part before the sphere of the
+// radius holds before, the part in it, from enter to leave, holds inside.
+float lamp_advance(float integral, float before, float inside, float a, float enter, float leave, float h) {
+    if (integral <= before) {
+        return inverse_square_advance(a, h, integral);
+    }
+    if (integral <= before + inside) {
+        return enter - a + (leave - enter) * (integral - before) / inside;
+    }
+    return leave - a + inverse_square_advance(leave, h, integral - before - inside);
 }
 
-// w = 1 on a span of v about the middle c.
-vec4 moments_constant(float c, float span) {
-    float s2 = span * span;
-    return span * vec4(1.0f, c, c * c + s2 / 12.0f, c * (c * c + 0.25f * s2));
-}
-
-// w = d^2 on v in [-r, r].
-vec4 moments_square(float r, float m, float h) {
-    float r2 = r * r;
-    float q = h * h + m * m;
-    return 2.0f * r * vec4(q + r2 / 3.0f, 2.0f * m * r2 / 3.0f, q * r2 / 3.0f + r2 * r2 / 5.0f, 2.0f * m * r2 * r2 / 5.0f);
-}
-
-// Two-point Gauss rule for int_{t_begin}^{t_end} attenuation(d(t)) f(t) dt = weight0 f(t0) + weight1 f(t1): the
-// attenuation is the weight function of the rule and is integrated in closed form, f is what else varies
-// (transmittance, phase, cone, visibility). Exact for f up to the third power of t, so the sum of the weights is
-// the integral of the attenuation alone. t0 <= t1 lie inside the segment, weights are >= 0 [1/m].
+// Quadrature rule int_{t_begin}^{t_end} attenuation(d(t)) f(t) dt = sum_i weight_i f(t_i) for what else varies along
+// the segment: phase, transmittance, cone, visibility. The nodes are Gauss-Legendre in the integral of the clamped
+// inverse square, which outside the lamp's sphere is the angle seen from the lamp (equi-angular, Kulla and Fajardo
+// 2012), the variable in which phase and cone are smooth. The sum of the weights is the closed form of the integral
+// of the attenuation. t rises from x to w inside the segment; weights [1/m] are >= 0, all 0 where nothing arrives.
 struct LampSegment {
-    float t0;
-    float t1;
-    float weight0;
-    float weight1;
+    vec4 t;
+    vec4 weight;
 };
 
-// Inside the sphere of the lamp's radius the range window is 1 - (d / range)^4 (radius / d)^2 here, which differs from
-// the law by at most (radius / range)^4 / 4.
+// Error of the rule against quadrature, relative to the integral, root mean square (maximum), over segments of 0.05 to
+// 50 m that pass a lamp at 0.02 to 20 m; "mean" is the integral times f at lamp_segment_mean, "centre" one sample of
+// everything at the middle of the segment:
+//     f                                           rule           mean           centre
+//     transmittance, sigma_t length <= 0.3        0.04% (0.3%)   0.13% (0.4%)   230%
+//     transmittance, sigma_t length <= 1          0.16% (1.3%)   1.4% (4.1%)    230%
+//     transmittance, sigma_t length <= 3          1.1% (11%)     11% (31%)      230%
+//     that to 0.5, Henyey-Greenstein g = 0.3      0.17% (1.1%)   16% (45%)      210%
+//     that to 0.5, Henyey-Greenstein g = 0.6      1.4% (4.6%)    38% (80%)      150%
+//     that to 0.5, Henyey-Greenstein g = 0.85     12% (32%)      52% (97%)      120%
+//
+// The integral of the range window is exact outside the sphere of the lamp's radius and within
+// (radius / range)^4 / 4 of the law inside it.
 LampSegment lamp_segment(LampRay ray, float t_begin, float t_end, float radius, float inverse_range) {
+    LampSegment segment;
+    segment.t = vec4(t_begin);
+    segment.weight = vec4(0.0f);
     float h = ray.h;
     float a = t_begin - ray.t_closest;
     float b = t_end - ray.t_closest;
     float span = t_end - t_begin;  // not b - a, which would lose the digits of a short segment
+    float first = t_begin;
     float inverse_range_squared = inverse_range * inverse_range;
-    LampSegment segment;
-    segment.t0 = t_begin;
-    segment.t1 = t_begin;
-    segment.weight0 = 0.0f;
-    segment.weight1 = 0.0f;
     if (inverse_range > 0.0f) {
         float reach = sqrt(max(1.0f / inverse_range_squared - h * h, 0.0f));
         if (a < -reach || b > reach) {
+            first += max(-reach - a, 0.0f);
             a = max(a, -reach);
             b = min(b, reach);
             span = b - a;
@@ -130,66 +120,67 @@ LampSegment lamp_segment(LampRay ray, float t_begin, float t_end, float radius, 
     if (span <= 0.0f) {
         return segment;
     }
-    float r = 0.5f * span;
-    float m = 0.5f * (a + b);
 
+    // The part before the sphere, in it, and behind it; all of it counts as before where the sphere is not met.
     float sphere = max(radius, LAMP_MIN_RADIUS);
     float chord = sqrt(max(sphere * sphere - h * h, 0.0f));
-    vec4 e = vec4(0.0f);
+    float enter = b;
+    float leave = b;
+    float before = 0.0f;
+    float behind = 0.0f;
     if (h < sphere && a < chord && b > -chord) {
-        float enter = max(a, -chord);
-        float leave = min(b, chord);
-        e = moments_constant(0.5f * (enter + leave) - m, leave - enter) / (sphere * sphere);
-        if (a < -chord) {
-            e += moments_inverse_square(a, -chord, -chord - a, m, h);
-        }
-        if (b > chord) {
-            e += moments_inverse_square(chord, b, b - chord, m, h);
-        }
-    } else if (r * r < 0.01f * (h * h + m * m)) {
-        e = moments_inverse_square_far(r, m, h);
+        enter = max(a, -chord);
+        leave = min(b, chord);
+        before = a < enter ? inverse_square_integral(a, enter, enter - a, h) : 0.0f;
+        behind = leave < b ? inverse_square_integral(leave, b, b - leave, h) : 0.0f;
     } else {
-        e = moments_inverse_square(a, b, span, m, h);
+        before = inverse_square_integral(a, b, span, h);
     }
-    e -= inverse_range_squared * inverse_range_squared * moments_square(r, m, h);
-    if (e.x <= 0.0f) {
-        return segment;
-    }
+    float inside = (leave - enter) / (sphere * sphere);
+    float total = before + inside + behind;
 
-    // Mean, variance and skewness of the attenuation give the nodes and weights of the rule.
-    float mean = e.y / (e.x * r);
-    float raw2 = e.z / (e.x * r * r);
-    float raw3 = e.w / (e.x * r * r * r);
-    float variance = clamp(raw2 - mean * mean, 1.0e-6f, 1.0f);
-    float deviation = sqrt(variance);
-    float half_skew = 0.5f * (raw3 - 3.0f * mean * raw2 + 2.0f * mean * mean * mean) / (variance * deviation);
-    float root = sqrt(1.0f + half_skew * half_skew);
-    float near_share = 0.5f * (1.0f + half_skew / root);
-    float middle = m + ray.t_closest;
-    segment.t0 = clamp(middle + r * (mean + deviation * (half_skew - root)), t_begin, t_end);
-    segment.t1 = clamp(middle + r * (mean + deviation * (half_skew + root)), t_begin, t_end);
-    segment.weight0 = e.x * near_share;
-    segment.weight1 = e.x * (1.0f - near_share);
+    vec4 target = total * vec4(0.06943184f, 0.33000948f, 0.66999052f, 0.93056816f);
+    vec4 advance = vec4(lamp_advance(target.x, before, inside, a, enter, leave, h),
+                        lamp_advance(target.y, before, inside, a, enter, leave, h),
+                        lamp_advance(target.z, before, inside, a, enter, leave, h),
+                        lamp_advance(target.w, before, inside, a, enter, leave, h));
+    advance = clamp(advance, vec4(0.0f), vec4(span));
+    segment.t = clamp(first + advance, vec4(t_begin), vec4(t_end));
+
+    vec4 u = a + advance;
+    vec4 s = (h * h + u * u) * inverse_range_squared;
+    segment.weight = total * vec4(0.17392742f, 0.32607258f, 0.32607258f, 0.17392742f) * max(1.0f - s * s, vec4(0.0f));
+    // int d^2 / range^4: the window takes this from the integral of the inverse square.
+    float m = 0.5f * (a + b);
+    float cut = span * (h * h + m * m + span * span / 12.0f) * inverse_range_squared * inverse_range_squared;
+    segment.weight *= max(total - cut, 0.0f) / max(dot(segment.weight, vec4(1.0f)), 1.0e-30f);
     return segment;
 }
 
 // int attenuation dt over the segment [1/m].
 float lamp_segment_integral(LampSegment segment) {
-    return segment.weight0 + segment.weight1;
+    return dot(segment.weight, vec4(1.0f));
 }
 
-// The attenuation-weighted mean of t over the segment: the representative point of a single sample.
+// The mean of t by weight: the representative point of a single sample, as of visibility. t_begin where all weights are 0.
 float lamp_segment_mean(LampSegment segment) {
-    return (segment.weight0 * segment.t0 + segment.weight1 * segment.t1) /
-           max(lamp_segment_integral(segment), 1.0e-30f);
+    float integral = lamp_segment_integral(segment);
+    return integral > 0.0f ? segment.t.x + dot(segment.weight, segment.t - segment.t.x) / integral : segment.t.x;
 }
 
-// int attenuation(d(t)) exp(-sigma_t (t - t_begin)) dt [1/m], for a constant extinction sigma_t [1/m] in the segment.
-// Relative error over random segments (h 0.02..20 m, length 0.05..50 m), root mean square and maximum:
-// 0.00% and 0.00% for sigma_t length <= 0.3, 0.01% and 0.05% to 1, 0.4% and 1.7% to 3.
-vec3 lamp_segment_transmitted(LampSegment segment, vec3 sigma_t, float t_begin) {
-    return segment.weight0 * exp(-sigma_t * (segment.t0 - t_begin)) +
-           segment.weight1 * exp(-sigma_t * (segment.t1 - t_begin));
+// cos_theta of the phase function at the nodes: light travels from the lamp to the node, leaves against the ray.
+vec4 lamp_segment_cos_theta(LampSegment segment, LampRay ray) {
+    vec4 u = segment.t - ray.t_closest;
+    return -u / sqrt(max(ray.h * ray.h + u * u, vec4(1.0e-20f)));
+}
+
+// int attenuation(d(t)) f(t) exp(-sigma_t (t - t_begin)) dt [1/m] for a constant extinction sigma_t [1/m], with the
+// values of f at the nodes. See the table above for its error, and for that of one exponential at lamp_segment_mean.
+vec3 lamp_segment_transmitted(LampSegment segment, vec4 f, vec3 sigma_t, float t_begin) {
+    vec4 w = segment.weight * f;
+    vec4 s = segment.t - t_begin;
+    return w.x * exp(-sigma_t * s.x) + w.y * exp(-sigma_t * s.y) + w.z * exp(-sigma_t * s.z) +
+           w.w * exp(-sigma_t * s.w);
 }
 
 #endif
