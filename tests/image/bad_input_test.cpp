@@ -1,0 +1,132 @@
+// Every way a person can be wrong gives one clear line on stderr, the contract's exit code, and no output file.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+
+#include "support/command.h"
+
+namespace tyndall::test {
+namespace {
+
+struct Case {
+    std::string name;
+    std::vector<std::string> arguments;  ///< "{tmp}" stands for a temporary folder, "{level}" for the level
+    int exit_code;
+    std::vector<std::string> says;  ///< all must appear in the line
+    std::vector<std::string> environment = {};
+};
+
+void PrintTo(const Case& c, std::ostream* out) {
+    *out << c.name;
+}
+
+std::string replace(std::string text, const std::string& what, const std::string& by) {
+    for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + by.size()))
+        text.replace(at, what.size(), by);
+    return text;
+}
+
+void write(const std::filesystem::path& path, const std::string& text) {
+    std::ofstream(path, std::ios::binary) << text;
+}
+
+class BadInput : public ::testing::TestWithParam<Case> {
+  protected:
+    BadInput() {
+        write(folder_ / "corrupt.glb", "glTF this is not");
+        write(folder_ / "corrupt.json", "{\"media\": [");
+        write(folder_ / "negative.json", R"({"media":[{"shape":"global","scattering":[-1,0,0]}]})");
+        write(folder_ / "infinite.json", R"({"media":[{"shape":"global","scattering":[1e999,0,0]}]})");
+        write(folder_ / "shape.json", R"({"media":[{"shape":"torus","scattering":[1,1,1]}]})");
+        write(folder_ / "preset.json", R"({"steps": 8, "no_such_setting": 1})");
+        write(folder_ / "escape.gltf",
+              R"({"asset":{"version":"2.0"},"buffers":[{"uri":"../secret.bin","byteLength":12}],"scenes":[{}]})");
+        write(folder_ / "texture.gltf",
+              R"({"asset":{"version":"2.0"},"images":[{"uri":"missing.png"}],"textures":[{"source":0}],)"
+              R"("materials":[{"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}}],"scenes":[{}]})");
+        write(folder_ / "bad_texture.gltf",
+              R"({"asset":{"version":"2.0"},"images":[{"uri":"bad.png"}],"textures":[{"source":0}],)"
+              R"("materials":[{"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}}],"scenes":[{}]})");
+        write(folder_ / "bad.png", "this is no picture");
+        std::filesystem::create_directory(folder_ / "folder.png");
+    }
+    TemporaryFolder folder_;
+};
+
+TEST_P(BadInput, OneLineTheRightCodeAndNothingWritten) {
+    const Case& c = GetParam();
+    std::vector<std::string> arguments;
+    for (const std::string& a : c.arguments)
+        arguments.push_back(replace(replace(a, "{tmp}", folder_.path().string()), "{level}", level()));
+    const CommandResult result = run_tyndall(arguments, c.environment);
+    EXPECT_EQ(result.exit_code, c.exit_code) << result.err;
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+    EXPECT_TRUE(result.err.starts_with("tyndall: ")) << result.err;
+    for (const std::string& word : c.says)
+        EXPECT_NE(result.err.find(word), std::string::npos) << word << "\n" << result.err;
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "out.png"));
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "out.exr"));
+    for (const auto& entry : std::filesystem::directory_iterator(folder_.path()))
+        EXPECT_EQ(entry.path().filename().string().find("tmp"), std::string::npos) << entry.path();
+}
+
+std::vector<std::string> render(const std::string& scene, std::vector<std::string> more = {},
+                                const std::string& out = "{tmp}/out.png") {
+    std::vector<std::string> a{"render", scene, "-o", out, "--size", "32x18"};
+    a.insert(a.end(), more.begin(), more.end());
+    return a;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Cases, BadInput,
+    ::testing::Values(
+        Case{"MissingScene", render("{tmp}/none.glb"), 1, {"none.glb"}},
+        Case{"CorruptScene", render("{tmp}/corrupt.glb"), 1, {"corrupt.glb"}},
+        Case{"UriLeavesFolder", render("{tmp}/escape.gltf"), 1, {"escape.gltf", "../secret.bin"}},
+        Case{"MissingTexture", render("{tmp}/texture.gltf"), 1, {"missing.png"}},
+        Case{"CorruptTexture", render("{tmp}/bad_texture.gltf"), 1, {"bad.png"}},
+        Case{"MissingMedia", render("{level}", {"--media", "{tmp}/none.json"}), 1, {"none.json"}},
+        Case{"CorruptMedia", render("{level}", {"--media", "{tmp}/corrupt.json"}), 1, {"corrupt.json"}},
+        Case{"NegativeMedium",
+             render("{level}", {"--media", "{tmp}/negative.json"}),
+             1,
+             {"negative.json", "media[0]", "scattering"}},
+        Case{"InfiniteMedium", render("{level}", {"--media", "{tmp}/infinite.json"}), 1, {"infinite.json"}},
+        Case{"UnknownShape", render("{level}", {"--media", "{tmp}/shape.json"}), 1, {"torus"}},
+        Case{"UnknownSetting", render("{level}", {"--set", "stepz=4"}), 2, {"stepz"}},
+        Case{"ValueOutOfRange", render("{level}", {"--set", "steps=0"}), 2, {"steps", "0", "1024"}},
+        Case{"ValueNotANumber", render("{level}", {"--set", "steps=many"}), 2, {"steps", "many"}},
+        Case{"NoEqualsSign", render("{level}", {"--set", "steps"}), 2, {"steps"}},
+        Case{"UnknownTechnique", render("{level}", {"--technique", "magic"}), 2, {"magic", "ray_march"}},
+        Case{"UnknownCamera", render("{level}", {"--camera", "Nowhere"}), 2, {"Nowhere", "LocalPM"}},
+        Case{"UnknownPreset", render("{level}", {"--preset", "ultra"}), 2, {"ultra", "balanced"}},
+        Case{"MissingPresetFile", render("{level}", {"--preset", "{tmp}/none.json"}), 1, {"none.json"}},
+        Case{"PresetUnknownKey",
+             render("{level}", {"--preset", "{tmp}/preset.json"}),
+             1,
+             {"preset.json", "no_such_setting"}},
+        Case{"UnknownLayer", render("{level}", {"--layer", "smell"}), 2, {"smell"}},
+        Case{"UnknownContext", render("{level}", {"--context", "vulkan"}), 2, {"vulkan"}},
+        Case{"NoDisplay", render("{level}", {"--context", "glfw"}), 1, {"display"}, {"DISPLAY", "WAYLAND_DISPLAY"}},
+        Case{"PlayNoDisplayGlfw",
+             {"play", "{level}", "--context", "glfw"},
+             1,
+             {"display"},
+             {"DISPLAY", "WAYLAND_DISPLAY"}},
+        Case{"NoGl45", render("{level}", {"--context", "egl"}), 1, {"4.5"}, {"MESA_GL_VERSION_OVERRIDE=3.3"}},
+        Case{"ZeroSize", {"render", "{level}", "-o", "{tmp}/out.png", "--size", "0x10"}, 2, {"0x10"}},
+        Case{"AbsurdSize", {"render", "{level}", "-o", "{tmp}/out.png", "--size", "999999x2"}, 2, {"999999x2"}},
+        Case{"UnknownExtension", render("{level}", {}, "{tmp}/out.gif"), 2, {"out.gif", ".png", ".exr"}},
+        Case{"UnwritableOutput", render("{level}", {}, "{tmp}/no/such/out.png"), 1, {"no/such/out.png"}},
+        Case{"OutputIsAFolder", render("{level}", {}, "{tmp}/folder.png"), 1, {"folder.png"}},
+        Case{"EyeWithoutLook", render("{level}", {"--eye", "0,0,0"}), 2, {"--look"}},
+        Case{"CompareMissing", {"compare", "{tmp}/a.png", "{tmp}/b.png"}, 1, {"a.png"}},
+        Case{"CompareUnknownMetric", {"compare", "a.png", "b.png", "--metric", "beauty"}, 2, {"beauty", "rmse"}},
+        Case{
+            "FlythroughWithoutPath", {"flythrough", "{tmp}/escape.gltf", "--out", "{tmp}/fly"}, 1, {"escape.gltf"}},
+        Case{"NoCommand", {}, 2, {}}, Case{"UnknownCommand", {"dance"}, 2, {"dance"}}),
+    [](const auto& info) { return info.param.name; });
+
+}  // namespace
+}  // namespace tyndall::test
