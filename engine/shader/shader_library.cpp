@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdio>
 #include <regex>
 #include <sstream>
+#include <utility>
 
 #include "engine/core/check.h"
 #include "engine/core/error.h"
@@ -46,33 +48,46 @@ void check_permutation(const ProgramDesc& desc, const Permutation& permutation) 
     require(!desc.valid || desc.valid(permutation), "a permutation is one that the program's desc calls valid");
 }
 
+// Mesa often reports source-string number 0, whatever #line said; so the number of the file goes into the line
+// number, too: line 37 of file 2 is 30037.
+constexpr unsigned long lines_per_file = 10000;
+
+std::string line_directive(const std::string& directive) {
+    unsigned long line = 0, file = 0;
+    TYNDALL_CHECK(std::sscanf(directive.c_str(), "#line %lu %lu", &line, &file) == 2);
+    return fmt::format("#line {} {}", (file + 1) * lines_per_file + line, file);
+}
+
 /// `#extension` must stand before anything else: those lines move up, and leave an empty line behind.
 std::string complete_source(const std::string& resolved, const Permutation& permutation) {
     std::string head = "#version 450 core\n", body, line;
     std::istringstream lines(resolved);
     while (std::getline(lines, line)) {
         const std::size_t start = std::min(line.find_first_not_of(" \t"), line.size());
-        const bool extension = line.compare(start, 10, "#extension") == 0;
-        (extension ? head : body) += line + '\n';
-        if (extension) body += '\n';
+        if (line.compare(start, 10, "#extension") == 0)
+            head += std::exchange(line, "") + '\n';
+        else if (line.starts_with("#line "))
+            line = line_directive(line);
+        body += line + '\n';
     }
     head += "#define TYNDALL_GLSL 1\n";
     for (const auto& [define, value] : permutation) head += fmt::format("#define {} {}\n", define, value);
     return head + body;
 }
 
-/// Turns "0:37(12): error" (Mesa), "0(37) : error" (NVIDIA) and "ERROR: 0:37:" (AMD, Intel) into "path:37: error".
+/// Turns "0:30037(12): error" (Mesa), "2(30037) : error" (NVIDIA) and "ERROR: 2:30037:" (AMD, Intel) into
+/// "path:37: error".
 std::string with_file_names(const std::string& log, const std::vector<fs::path>& files, const fs::path& root) {
-    static const std::regex place(R"(^(?:ERROR: |WARNING: )?(\d+)[:(](\d+)\)?(?:\(\d+\))?\s*:\s*(.*)$)");
+    static const std::regex place(R"(^(?:ERROR: |WARNING: )?\d+[:(](\d{1,9})\)?(?:\(\d+\))?\s*:\s*(.*)$)");
     std::istringstream lines(log);
     std::string result, line;
     while (std::getline(lines, line)) {
         std::smatch match;
-        if (std::regex_match(line, match, place) && match[1].length() < 6) {
-            const std::size_t file = std::stoul(match[1]);
-            if (file < files.size())
-                line = fmt::format("{}:{}: {}", files[file].lexically_relative(root).string(), match[2].str(),
-                                   match[3].str());
+        if (std::regex_match(line, match, place)) {
+            const unsigned long number = std::stoul(match[1]), file = number / lines_per_file;
+            if (file >= 1 && file <= files.size())
+                line = fmt::format("{}:{}: {}", files[file - 1].lexically_relative(root).string(),
+                                   number % lines_per_file, match[2].str());
         }
         result += (result.empty() ? "" : "\n") + line;
     }
