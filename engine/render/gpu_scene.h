@@ -1,10 +1,11 @@
 #pragma once
 
+#include <map>
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "engine/gl/buffer.h"
-#include "engine/gl/sampler.h"
 #include "engine/gl/texture.h"
 #include "engine/gl/vertex_array.h"
 #include "engine/scene/scene.h"
@@ -22,9 +23,12 @@ struct Instance {
     Aabb bounds;  ///< world
 };
 
-/// The scene on the GPU: one vertex and one index buffer, a texture per picture and slot, transforms per instance.
+/// The scene on the GPU: one vertex and one index buffer, a texture per picture and colour space, transforms per
+/// instance. Textures carry their own sampling (trilinear, anisotropic, repeat): bind them with sampler 0. Those of
+/// masked materials keep their coverage at every mip level, so that foliage does not thin out with distance.
 class GpuScene {
   public:
+    /// Throws Error for a picture larger than the driver's limit.
     explicit GpuScene(const Scene& scene);
     /// Uploads the transforms of dynamic instances and refreshes their bounds.
     void update(const Scene& scene);
@@ -52,11 +56,18 @@ class GpuScene {
     [[nodiscard]] bool has_dynamic_caster(const Frustum& frustum) const;
 
   private:
+    [[nodiscard]] GLuint texture(const Scene& scene, int picture, bool srgb, float coverage_cutoff);
+    void upload_meshes(const Scene& scene);
+    void upload_materials(const Scene& scene);
+    void place_instances(const Scene& scene);
+
     std::vector<Instance> instances_;
+    std::vector<int> dynamic_;  ///< indices into instances_, ascending
+    std::vector<glm::mat4> models_;
     std::vector<MeshRange> ranges_;
     std::vector<GpuMaterial> materials_;
-    std::vector<gl::Texture> textures_;
-    gl::Sampler sampler_;
+    std::map<std::tuple<int, bool, float>, gl::Texture> textures_;  ///< by picture, sRGB, alpha cutoff (0: none)
+    gl::Texture white_, flat_normal_;
     gl::Buffer vertices_, indices_, transforms_;
     gl::VertexArray vertex_array_;
 };

@@ -1,0 +1,174 @@
+#include "engine/scene/medium.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+#include <nlohmann/json.hpp>
+#include <string_view>
+
+#include "engine/core/error.h"
+#include "engine/core/files.h"
+
+namespace tyndall {
+namespace {
+
+using Json = nlohmann::json;
+
+/// A JSON value and where it is, for messages.
+struct Field {
+    const Json& json;
+    std::string where;
+
+    [[noreturn]] void fail(std::string_view expected) const {
+        std::string text = json.dump(-1, ' ', true, Json::error_handler_t::replace);
+        if (text.size() > 60) text = text.substr(0, 57) + "...";
+        throw Error(fmt::format("{}: {} given, {} expected", where, text, expected));
+    }
+    [[nodiscard]] bool has(const char* key) const { return json.contains(key); }
+    [[nodiscard]] Field at(const char* key) const {
+        if (!json.contains(key)) throw Error(fmt::format("{}: \"{}\" is missing", where, key));
+        return {json.at(key), where + "." + key};
+    }
+    void require_object(std::initializer_list<std::string_view> keys) const {
+        if (!json.is_object()) fail("an object");
+        for (const auto& item : json.items()) {
+            if (std::find(keys.begin(), keys.end(), item.key()) == keys.end())
+                throw Error(
+                    fmt::format("{}: unknown key \"{}\"; {} expected", where, item.key(), fmt::join(keys, ", ")));
+        }
+    }
+    [[nodiscard]] float number(std::string_view expected, auto valid) const {
+        const float value = json.is_number() ? json.get<float>() : NAN;
+        if (!std::isfinite(value) || !valid(value)) fail(expected);
+        return value;
+    }
+    [[nodiscard]] float number() const {
+        return number("a finite number", [](float) { return true; });
+    }
+    [[nodiscard]] float positive() const {
+        return number("a number > 0", [](float v) { return v > 0; });
+    }
+    [[nodiscard]] float not_negative() const {
+        return number("a number >= 0", [](float v) { return v >= 0; });
+    }
+    template <int n>
+    [[nodiscard]] glm::vec<n, float> vector(float (Field::*element)() const) const {
+        if (!json.is_array() || json.size() != n) fail(fmt::format("a list of {} numbers", n));
+        glm::vec<n, float> v;
+        for (int i = 0; i < n; ++i)
+            v[i] = (Field{json[static_cast<std::size_t>(i)], fmt::format("{}[{}]", where, i)}.*element)();
+        return v;
+    }
+};
+
+Medium::Shape parse_shape(const Field& field) {
+    using Shape = Medium::Shape;
+    static constexpr std::pair<std::string_view, Shape> shapes[] = {
+        {"global", Shape::global},       {"height", Shape::height}, {"sphere", Shape::sphere},
+        {"ellipsoid", Shape::ellipsoid}, {"box", Shape::box},       {"grid", Shape::grid}};
+    for (const auto& [name, shape] : shapes)
+        if (field.json == name) return shape;
+    field.fail("one of global, height, sphere, ellipsoid, box");
+}
+
+void require_known_keys(const Field& field, Medium::Shape shape) {
+    switch (shape) {
+        case Medium::Shape::global:
+            return field.require_object({"shape", "scattering", "absorption", "anisotropy", "emission"});
+        case Medium::Shape::height:
+            return field.require_object(
+                {"shape", "scattering", "absorption", "anisotropy", "emission", "base", "falloff"});
+        case Medium::Shape::sphere:
+            return field.require_object({"shape", "scattering", "absorption", "anisotropy", "emission", "center",
+                                         "radius", "rotation", "softness", "noise", "height"});
+        case Medium::Shape::ellipsoid:
+            return field.require_object({"shape", "scattering", "absorption", "anisotropy", "emission", "center",
+                                         "radii", "rotation", "softness", "noise", "height"});
+        case Medium::Shape::box:
+            return field.require_object({"shape", "scattering", "absorption", "anisotropy", "emission", "center",
+                                         "size", "rotation", "softness", "noise", "height"});
+        case Medium::Shape::grid:
+            throw Error(field.where + ": grid media are not supported by this version");
+    }
+}
+
+void parse_height_profile(const Field& field, Medium& medium) {
+    medium.height_profile = true;
+    medium.base = field.at("base").number();
+    medium.falloff = field.at("falloff").positive();
+}
+
+void parse_noise(const Field& field, Medium& medium) {
+    field.require_object({"scale", "amount", "seed"});
+    medium.noise_scale = field.at("scale").positive();
+    medium.noise_amount = field.at("amount").number("a number in [0, 1]", [](float v) { return v >= 0 && v <= 1; });
+    if (field.has("seed")) {
+        const Field seed = field.at("seed");
+        constexpr int largest = 1 << 24;  // exact in the shader's float
+        if (!seed.json.is_number_integer() || seed.json < 0 || seed.json > largest)
+            seed.fail(fmt::format("an integer in [0, {}]", largest));
+        medium.noise_seed = seed.json.get<int>();
+    }
+}
+
+void parse_bounded_shape(const Field& field, Medium& medium) {
+    medium.center = field.at("center").vector<3>(&Field::number);
+    if (medium.shape == Medium::Shape::sphere) medium.radii = glm::vec3(field.at("radius").positive());
+    if (medium.shape == Medium::Shape::ellipsoid) medium.radii = field.at("radii").vector<3>(&Field::positive);
+    if (medium.shape == Medium::Shape::box) medium.size = field.at("size").vector<3>(&Field::positive);
+    if (field.has("rotation")) {
+        const Field rotation = field.at("rotation");
+        const glm::vec4 q = rotation.vector<4>(&Field::number);
+        if (std::abs(glm::length(q) - 1) > 0.01f) rotation.fail("a unit quaternion [x, y, z, w]");
+        medium.rotation = glm::normalize(glm::quat(q.w, q.x, q.y, q.z));
+    }
+    if (field.has("softness")) medium.softness = field.at("softness").not_negative();
+    if (field.has("noise")) parse_noise(field.at("noise"), medium);
+    if (field.has("height")) {
+        field.at("height").require_object({"base", "falloff"});
+        parse_height_profile(field.at("height"), medium);
+    }
+}
+
+Medium parse_medium(const Field& field) {
+    if (!field.json.is_object()) field.fail("an object");
+    Medium medium;
+    medium.shape = parse_shape(field.at("shape"));
+    require_known_keys(field, medium.shape);
+    medium.sigma_s = field.at("scattering").vector<3>(&Field::not_negative);
+    if (field.has("absorption")) medium.sigma_a = field.at("absorption").vector<3>(&Field::not_negative);
+    if (field.has("emission")) medium.emission = field.at("emission").vector<3>(&Field::not_negative);
+    if (field.has("anisotropy"))
+        medium.anisotropy =
+            field.at("anisotropy").number("a number between -1 and 1", [](float v) { return v > -1 && v < 1; });
+    if (medium.shape == Medium::Shape::height) {
+        parse_height_profile(field, medium);
+    } else if (medium.shape != Medium::Shape::global) {
+        parse_bounded_shape(field, medium);
+    }
+    return medium;
+}
+
+}  // namespace
+
+std::vector<Medium> parse_media(const Json& json, const std::string& where) {
+    const Field root{json, where};
+    if (json.is_object()) {
+        root.require_object({"media"});
+        if (!json.contains("media")) throw Error(where + ": \"media\" is missing");
+    }
+    const Json& list = json.is_object() ? json.at("media") : json;
+    if (!list.is_array()) Field{list, where + ": media"}.fail("a list");
+    std::vector<Medium> media;
+    for (std::size_t i = 0; i < list.size(); ++i)
+        media.push_back(parse_medium({list[i], fmt::format("{}: media[{}]", where, i)}));
+    return media;
+}
+
+std::vector<Medium> load_media(const std::filesystem::path& path) {
+    return parse_media(read_json(path), path.string());
+}
+
+}  // namespace tyndall
