@@ -27,8 +27,8 @@ float ray_distance_from_view_depth(float view_depth, float forward_cosine) {
     return view_depth / forward_cosine;
 }
 
-// View-space point of normalised device coordinates (-1..1, y up) at a view depth, for a symmetric perspective whose
-// tan_half_fov holds the tangents of half the horizontal and half the vertical field of view.
+// View-space point of normalised device coordinates (-1..1, y up) at a view depth, for a symmetric perspective
+// whose tan_half_fov holds the tangents of half the horizontal and half the vertical field of view.
 vec3 view_position_from_ndc(vec2 ndc, float view_depth, vec2 tan_half_fov) {
     return vec3(ndc * tan_half_fov * view_depth, -view_depth);
 }

@@ -7,8 +7,9 @@
 // (NDC = 2 uv - 1), w in [0,1] over the view depths [z_near, z_far] of the volume, which need not be the camera's.
 // Slice k of n holds w from k/n to (k+1)/n; its centre, where a trilinear fetch returns its texel, is (k+0.5)/n.
 
-const int FROXEL_LINEAR = 0;       // view_depth = z_near + (z_far - z_near) w
-const int FROXEL_EXPONENTIAL = 1;  // view_depth = z_near (z_far / z_near)^w, slices in proportion to their depth; z_near > 0
+const int FROXEL_LINEAR = 0;  // view_depth = z_near + (z_far - z_near) w
+const int FROXEL_EXPONENTIAL =
+    1;  // view_depth = z_near (z_far / z_near)^w, slices in proportion to their depth; z_near > 0
 
 // Outside the volume's depths the result lies outside [0,1].
 float froxel_w_from_view_depth(int distribution, float view_depth, float z_near, float z_far) {

@@ -14,13 +14,13 @@
 
 #include <glm/glm.hpp>
 
-#define TYNDALL_GLSL_BEGIN                                                                       \
-    _Pragma("GCC diagnostic push") _Pragma("GCC diagnostic ignored \"-Wunused-function\"")       \
-    namespace tyndall::glsl {                                                                    \
-    namespace {                                                                                  \
-    using namespace glm;
+#define TYNDALL_GLSL_BEGIN                                                                \
+    _Pragma("GCC diagnostic push")                                                        \
+        _Pragma("GCC diagnostic ignored \"-Wunused-function\"") namespace tyndall::glsl { \
+        namespace {                                                                       \
+        using namespace glm;
 
-#define TYNDALL_GLSL_END             \
-    } /* namespace */                \
-    } /* namespace tyndall::glsl */  \
+#define TYNDALL_GLSL_END            \
+    } /* namespace */               \
+    } /* namespace tyndall::glsl */ \
     _Pragma("GCC diagnostic pop")

@@ -1,8 +1,9 @@
 #ifndef TYNDALL_LIB_LAMP_SEGMENT
 #define TYNDALL_LIB_LAMP_SEGMENT
 
-// Light of a point or spot lamp, at a point and over a segment of a ray. Lengths in metres; attenuations in 1/m^2, to
-// be multiplied by the intensity [cd]. Every function holds the same law (KHR_lights_punctual, with the lamp's radius):
+// Light of a point or spot lamp, at a point and over a segment of a ray. Lengths in metres; attenuations in 1/m^2,
+// to be multiplied by the intensity [cd]. Every function holds the same law (KHR_lights_punctual, with the lamp's
+// radius):
 //     attenuation(d) = (1 - (d / range)^4) / max(d^2, radius^2) for d < range, else 0.
 // A range is passed as its inverse, 0 for a lamp without one.
 
@@ -42,8 +43,8 @@ LampRay lamp_ray(vec3 origin, vec3 unit_direction, vec3 lamp_position) {
 }
 
 // int_a^b du / (h^2 + u^2) where h and [a, b] do not both touch 0, and span = b - a >= 0. It is
-// (atan(b/h) - atan(a/h)) / h, by one atan of the difference, which does not cancel; for a small angle the series of
-// atan, which holds to h = 0, where the integral is (b - a) / (a b).
+// (atan(b/h) - atan(a/h)) / h, by one atan of the difference, which does not cancel; for a small angle the series
+// of atan, which holds to h = 0, where the integral is (b - a) / (a b).
 float inverse_square_integral(float a, float b, float span, float h) {
     float product = h * h + a * b;
     float z = h * span;
@@ -54,8 +55,8 @@ float inverse_square_integral(float a, float b, float span, float h) {
     return atan(z, product) / h;
 }
 
-// The inverse: how far u advances from a until the integral of 1 / (h^2 + u^2) reaches a value. With y = h * integral,
-// the angle swept as seen from the lamp, u - a = sin(y) (h^2 + a^2) / (h cos(y) - a sin(y)); holds to h = 0.
+// The inverse: how far u advances from a until the integral of 1 / (h^2 + u^2) reaches a value. The angle swept as
+// seen from the lamp is y = h integral, and u - a = sin(y) (h^2 + a^2) / (h cos(y) - a sin(y)); it holds to h = 0.
 float inverse_square_advance(float a, float h, float integral) {
     float y = h * integral;
     float y2 = y * y;
@@ -75,19 +76,20 @@ float lamp_advance(float integral, float before, float inside, float a, float en
     return leave - a + inverse_square_advance(leave, h, integral - before - inside);
 }
 
-// Quadrature rule int_{t_begin}^{t_end} attenuation(d(t)) f(t) dt = sum_i weight_i f(t_i) for what else varies along
-// the segment: phase, transmittance, cone, visibility. The nodes are Gauss-Legendre in the integral of the clamped
-// inverse square, which outside the lamp's sphere is the angle seen from the lamp (equi-angular, Kulla and Fajardo
-// 2012), the variable in which phase and cone are smooth. The sum of the weights is the closed form of the integral
-// of the attenuation. t rises from x to w inside the segment; weights [1/m] are >= 0, all 0 where nothing arrives.
+// Quadrature rule int_{t_begin}^{t_end} attenuation(d(t)) f(t) dt = sum_i weight_i f(t_i) for what else varies
+// along the segment: phase, transmittance, cone, visibility. The nodes are Gauss-Legendre in the integral of the
+// clamped inverse square, which outside the lamp's sphere is the angle seen from the lamp (equi-angular, Kulla and
+// Fajardo 2012), the variable in which phase and cone are smooth. The sum of the weights is the closed form of the
+// integral of the attenuation. t rises from x to w inside the segment; weights [1/m] are >= 0, all 0 where nothing
+// arrives.
 struct LampSegment {
     vec4 t;
     vec4 weight;
 };
 
-// Error of the rule against quadrature, relative to the integral, root mean square (maximum), over segments of 0.05 to
-// 50 m that pass a lamp at 0.02 to 20 m; "mean" is the integral times f at lamp_segment_mean, "centre" one sample of
-// everything at the middle of the segment:
+// Error of the rule against quadrature, relative to the integral, root mean square (maximum), over segments of 0.05
+// to 50 m that pass a lamp at 0.02 to 20 m; "mean" is the integral times f at lamp_segment_mean, "centre" one
+// sample of everything at the middle of the segment:
 //     f                                           rule           mean           centre
 //     transmittance, sigma_t length <= 0.3        0.04% (0.3%)   0.13% (0.4%)   230%
 //     transmittance, sigma_t length <= 1          0.16% (1.3%)   1.4% (4.1%)    230%
@@ -149,7 +151,8 @@ LampSegment lamp_segment(LampRay ray, float t_begin, float t_end, float radius, 
 
     vec4 u = a + advance;
     vec4 s = (h * h + u * u) * inverse_range_squared;
-    segment.weight = total * vec4(0.17392742f, 0.32607258f, 0.32607258f, 0.17392742f) * max(1.0f - s * s, vec4(0.0f));
+    segment.weight =
+        total * vec4(0.17392742f, 0.32607258f, 0.32607258f, 0.17392742f) * max(1.0f - s * s, vec4(0.0f));
     // int d^2 / range^4: the window takes this from the integral of the inverse square.
     float m = 0.5f * (a + b);
     float cut = span * (h * h + m * m + span * span / 12.0f) * inverse_range_squared * inverse_range_squared;
@@ -162,7 +165,8 @@ float lamp_segment_integral(LampSegment segment) {
     return dot(segment.weight, vec4(1.0f));
 }
 
-// The mean of t by weight: the representative point of a single sample, as of visibility. t_begin where all weights are 0.
+// The mean of t by weight: the representative point of a single sample, as of visibility. t_begin where all weights
+// are 0.
 float lamp_segment_mean(LampSegment segment) {
     float integral = lamp_segment_integral(segment);
     return integral > 0.0f ? segment.t.x + dot(segment.weight, segment.t - segment.t.x) / integral : segment.t.x;
@@ -175,7 +179,7 @@ vec4 lamp_segment_cos_theta(LampSegment segment, LampRay ray) {
 }
 
 // int attenuation(d(t)) f(t) exp(-sigma_t (t - t_begin)) dt [1/m] for a constant extinction sigma_t [1/m], with the
-// values of f at the nodes. See the table above for its error, and for that of one exponential at lamp_segment_mean.
+// values of f at the nodes; the table above has its error, and that of one exponential at lamp_segment_mean.
 vec3 lamp_segment_transmitted(LampSegment segment, vec4 f, vec3 sigma_t, float t_begin) {
     vec4 w = segment.weight * f;
     vec4 s = segment.t - t_begin;

@@ -15,7 +15,8 @@ struct MediumSegment {
 };
 
 // Energy-conserving integral over a segment with constant extinction (Hillaire 2015):
-//     effective_length = int_0^d exp(-sigma_t t) dt = (1 - exp(-sigma_t d)) / sigma_t,    optical_depth = sigma_t d,
+//     effective_length = int_0^d exp(-sigma_t t) dt = (1 - exp(-sigma_t d)) / sigma_t,    optical_depth = sigma_t
+//     d,
 // so a constant source S [radiance per metre] adds S * effective_length. It tends to d as sigma_t -> 0 and to
 // 1 / sigma_t as d grows. For x = sigma_t d < 1 the difference would cancel: there
 //     (1 - exp(-x)) / x = exp(-x/2) sinh(x/2) / (x/2)
@@ -27,8 +28,7 @@ MediumSegment integrate_segment(vec3 optical_depth, float path_length) {
     vec3 half_transmittance = exp(-half_depth);
     vec3 y = min(half_depth, 0.5f);
     vec3 y2 = y * y;
-    vec3 thin = half_transmittance *
-                (1.0f + y2 * (1.0f / 6.0f + y2 * (1.0f / 120.0f + y2 * (1.0f / 5040.0f))));
+    vec3 thin = half_transmittance * (1.0f + y2 * (1.0f / 6.0f + y2 * (1.0f / 120.0f + y2 * (1.0f / 5040.0f))));
     MediumSegment segment;
     segment.transmittance = half_transmittance * half_transmittance;
     vec3 thick = (1.0f - segment.transmittance) / max(optical_depth, 0.5f);
@@ -50,7 +50,8 @@ float mean_exponential(float x) {
 // The exponent is held at this value (density 1.1e26), so that products with lengths stay finite.
 const float HEIGHT_MAX_EXPONENT = 60.0f;
 
-// Stands for an infinite density length [m]: any sigma_t above 1e-28 makes the transmittance 0, and sigma_t = 0 gives 1.
+// Stands for an infinite density length [m]: any sigma_t above 1e-28 makes the transmittance 0, and sigma_t = 0
+// gives 1.
 const float HEIGHT_INFINITE_LENGTH = 1.0e30f;
 
 float height_density(float y, float base, float falloff) {
