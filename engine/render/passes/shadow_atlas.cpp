@@ -1,0 +1,250 @@
+#include "engine/render/passes/shadow_atlas.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+
+#include "engine/core/check.h"
+#include "engine/core/log.h"
+#include "engine/render/shadow_tiles.h"
+#include "shaders/shared/bindings.h"
+
+namespace tyndall {
+namespace {
+
+int power_of_two(int size) {
+    return static_cast<int>(std::bit_floor(static_cast<unsigned>(std::max(size, smallest_shadow_tile))));
+}
+
+bool casts(const Light& light) {
+    return light.shadow && light.node >= 0 && shadow_tile_count(light.type) > 0;
+}
+
+const glm::mat4& pose(const Scene& scene, const Light& light) {
+    return scene.nodes[light.node].world;
+}
+
+}  // namespace
+
+ShadowAtlasPass::ShadowAtlasPass(ShaderLibrary& shaders)
+    : depth_(shaders), compare_({.compare = true, .compare_func = GL_GEQUAL}, "shadow atlas compare") {}
+
+void ShadowAtlasPass::release(FrameContext& context, const char* reason) {
+    atlas_ = {};
+    tile_buffer_ = {};
+    draws_ = {};
+    lights_.clear();
+    tile_data_.clear();
+    context.passes.skip("shadow_atlas", reason);
+}
+
+// Fills level and wanted of the lights in view.
+void ShadowAtlasPass::plan(const FrameContext& context, std::span<const std::size_t> casters) {
+    const Scene& scene = context.scene;
+    const int size_max = std::min(power_of_two(context.settings.tile_size_max), allocator_.size());
+    std::vector<TileDemand> demands;
+    for (const std::size_t i : casters) {
+        const Light& light = scene.lights[i];
+        const float distance = glm::distance(context.view.eye, glm::vec3(pose(scene, light)[3]));
+        lights_[i].level = shadow_tile_level(light.range, distance, size_max, lights_[i].level);
+        demands.push_back({lights_[i].level, shadow_tile_count(light.type)});
+    }
+    const long long area = static_cast<long long>(allocator_.size()) * allocator_.size();
+    const std::vector<int> sizes = plan_tile_sizes(demands, size_max, area);
+    for (std::size_t i = 0; i < casters.size(); ++i) lights_[casters[i]].wanted = sizes[i];
+    if (std::ranges::count(sizes, 0) > 0 && !warned_) {
+        warned_ = true;
+        spdlog::warn("shadow atlas: {} of {} lights in view have no room for a shadow; a larger atlas_size has",
+                     std::ranges::count(sizes, 0), sizes.size());
+    }
+}
+
+void ShadowAtlasPass::drop(LightTiles& light) {
+    for (const Tile& tile : light.tiles) allocator_.free(tile.place);
+    light.tiles.clear();
+}
+
+// All tiles of a light or none; on success its old ones are given back.
+bool ShadowAtlasPass::place(LightTiles& light, int count, int size) {
+    std::vector<Tile> tiles;
+    for (int i = 0; i < count; ++i) {
+        const auto place = allocator_.allocate(size);
+        if (!place) {
+            for (const Tile& tile : tiles) allocator_.free(tile.place);
+            return false;
+        }
+        tiles.push_back({*place});
+    }
+    drop(light);
+    light.tiles = std::move(tiles);
+    return true;
+}
+
+bool ShadowAtlasPass::drop_one_out_of_view() {
+    const auto unseen = [&](const LightTiles& light) { return light.seen != frame_ && !light.tiles.empty(); };
+    LightTiles* oldest = nullptr;
+    for (LightTiles& light : lights_)
+        if (unseen(light) && (oldest == nullptr || light.seen < oldest->seen)) oldest = &light;
+    if (oldest == nullptr) return false;
+    drop(*oldest);
+    return true;
+}
+
+// Everything anew, largest first, which always fits what was planned.
+void ShadowAtlasPass::repack(const Scene& scene, std::span<const std::size_t> casters) {
+    allocator_.clear();
+    for (LightTiles& light : lights_) light.tiles.clear();
+    std::vector<std::size_t> order(casters.begin(), casters.end());
+    std::ranges::stable_sort(order, std::greater{}, [&](std::size_t i) { return lights_[i].wanted; });
+    for (const std::size_t i : order) {
+        if (lights_[i].wanted == 0) continue;
+        const bool placed = place(lights_[i], shadow_tile_count(scene.lights[i].type), lights_[i].wanted);
+        TYNDALL_CHECK(placed);
+    }
+}
+
+// Changes as little as it can: a light whose tiles have the wanted size keeps them; one that cannot grow for want
+// of a large enough gap keeps what it has; a new one takes a smaller gap rather than move others.
+void ShadowAtlasPass::assign(const Scene& scene, std::span<const std::size_t> casters) {
+    std::vector<std::size_t> unplaced, growing;
+    for (const std::size_t i : casters) {
+        LightTiles& light = lights_[i];
+        const int count = shadow_tile_count(scene.lights[i].type);
+        if (static_cast<int>(light.tiles.size()) != count || light.size() > light.wanted) drop(light);
+        if (light.wanted == 0 || light.size() == light.wanted) continue;
+        (light.tiles.empty() ? unplaced : growing).push_back(i);
+    }
+    const auto larger = [&](std::size_t a, std::size_t b) { return lights_[a].wanted > lights_[b].wanted; };
+    std::ranges::stable_sort(unplaced, larger);
+    std::ranges::stable_sort(growing, larger);
+    const auto fits = [&](std::size_t i, int size) {
+        while (!place(lights_[i], shadow_tile_count(scene.lights[i].type), size))
+            if (!drop_one_out_of_view()) return false;
+        return true;
+    };
+    for (const std::size_t i : unplaced) {
+        int size = lights_[i].wanted;
+        while (size >= smallest_shadow_tile && !fits(i, size)) size /= 2;
+        if (size < smallest_shadow_tile) return repack(scene, casters);
+    }
+    long long missing = 0;
+    for (const std::size_t i : growing) {
+        const long long count = shadow_tile_count(scene.lights[i].type);
+        if (!fits(i, lights_[i].wanted)) missing += count * lights_[i].wanted * lights_[i].wanted;
+    }
+    const long long area = static_cast<long long>(allocator_.size()) * allocator_.size();
+    if (missing > area / 8) repack(scene, casters);
+}
+
+// The tile buffer holds the tiles of all lights, in the order of the scene's lights.
+void ShadowAtlasPass::number_tiles(const Scene& scene) {
+    std::vector<shared::ShadowTile> data;
+    for (std::size_t i = 0; i < lights_.size(); ++i) {
+        LightTiles& light = lights_[i];
+        light.first = light.tiles.empty() ? -1 : static_cast<int>(data.size());
+        for (std::size_t face = 0; face < light.tiles.size(); ++face)
+            data.push_back(make_shadow_tile(scene.lights[i], pose(scene, scene.lights[i]), static_cast<int>(face),
+                                            light.tiles[face].place, allocator_.size()));
+    }
+    if (data.empty()) data.emplace_back();  // a buffer of no bytes cannot be bound
+    const std::size_t bytes = data.size() * sizeof(shared::ShadowTile);
+    if (tile_buffer_ && data.size() == tile_data_.size() && std::memcmp(data.data(), tile_data_.data(), bytes) == 0)
+        return;
+    tile_data_ = std::move(data);
+    tile_buffer_.assign(std::span<const shared::ShadowTile>(tile_data_), "shadow tiles");
+}
+
+void ShadowAtlasPass::find_redraws(const FrameContext& context, std::span<const std::size_t> casters) {
+    const ShadowCasters occluders(context.scene, context.gpu);
+    redraws_.clear();
+    for (const std::size_t i : casters) {
+        LightTiles& light = lights_[i];
+        if (light.tiles.empty()) continue;
+        const glm::vec3 position(pose(context.scene, context.scene.lights[i])[3]);
+        const bool near_moving = occluders.moving_within(position, context.scene.lights[i].range);
+        for (std::size_t face = 0; face < light.tiles.size(); ++face) {
+            const shared::ShadowTile& data = tile_data_[light.first + face];
+            ShadowKey key;
+            key.add(data.world_to_clip);
+            key.add(data.rect);
+            key.add(occluders.static_key());
+            if (near_moving) key.add(occluders.moving_key(Frustum::from(data.world_to_clip)));
+            if (key.value() != light.tiles[face].drawn_key) redraws_.push_back({i, face, key.value(), data});
+        }
+    }
+}
+
+void ShadowAtlasPass::draw(const PassContext& pass, const GpuScene& gpu) {
+    std::vector<Frustum> frusta;
+    for (const Redraw& redraw : redraws_) frusta.push_back(Frustum::from(redraw.data.world_to_clip));
+    draws_.build(gpu, frusta, DrawList::Filter::shadow_casters);
+
+    pass.bind_framebuffer();
+    gl::apply(ShadowDepth::state(false));
+    gpu.bind();
+    glClearDepthf(0);
+    glEnable(GL_SCISSOR_TEST);  // clears reach their own tile only
+    for (std::size_t i = 0; i < redraws_.size(); ++i) {
+        const Redraw& redraw = redraws_[i];
+        Tile& tile = lights_[redraw.light].tiles[redraw.tile];
+        glViewport(tile.place.origin.x, tile.place.origin.y, tile.place.size, tile.place.size);
+        glScissor(tile.place.origin.x, tile.place.origin.y, tile.place.size, tile.place.size);
+        glClear(GL_DEPTH_BUFFER_BIT);
+        depth_.draw(gpu, draws_, static_cast<int>(i), redraw.data.world_to_clip);
+        tile.drawn_key = redraw.key;
+    }
+    glDisable(GL_SCISSOR_TEST);
+    tiles_drawn_ = static_cast<int>(redraws_.size());
+}
+
+ShadowAtlasPass::Output ShadowAtlasPass::add(FrameContext& context, std::span<const std::size_t> lights_in_view) {
+    tiles_drawn_ = 0;
+    ++frame_;
+    const Scene& scene = context.scene;
+    if (!context.settings.shadows || std::ranges::none_of(scene.lights, casts)) {
+        release(context, context.settings.shadows ? "no lamp of the scene casts shadows" : "shadows are off");
+        return {};
+    }
+    const int size = power_of_two(context.settings.atlas_size);
+    if (!atlas_ || atlas_.size().x != size || lights_.size() != scene.lights.size()) {
+        atlas_ = gl::Texture({.format = GL_DEPTH_COMPONENT32F, .size = {size, size, 1}}, "shadow atlas");
+        allocator_ = AtlasAllocator(size, smallest_shadow_tile);
+        lights_.assign(scene.lights.size(), {});
+    }
+
+    std::vector<std::size_t> casters;
+    for (const std::size_t i : lights_in_view)
+        if (casts(scene.lights[i])) casters.push_back(i);
+    std::ranges::sort(casters);
+    for (std::size_t i = 0; i < lights_.size(); ++i)
+        if (!casts(scene.lights[i])) drop(lights_[i]);
+    for (const std::size_t i : casters) lights_[i].seen = frame_;
+    plan(context, casters);
+    assign(scene, casters);
+    number_tiles(scene);
+    find_redraws(context, casters);
+
+    Output out{context.passes.import("shadow atlas", atlas_),
+               context.passes.import_buffer("shadow tiles", tile_buffer_.id())};
+    if (redraws_.empty()) {
+        context.passes.skip("shadow_atlas",
+                            casters.empty() ? "no shadow-casting lamp in view" : "unchanged since it was drawn");
+        return out;
+    }
+    context.passes.add(
+        "shadow_atlas", [&](PassBuilder& pass) { out.atlas = pass.attach_depth(out.atlas); },
+        [this, &gpu = context.gpu](const PassContext& pass) { draw(pass, gpu); });
+    return out;
+}
+
+int ShadowAtlasPass::first_tile(std::size_t scene_light_index) const {
+    return scene_light_index < lights_.size() ? lights_[scene_light_index].first : -1;
+}
+
+void ShadowAtlasPass::bind() const {
+    glBindTextureUnit(UNIT_SHADOW_ATLAS, atlas_.id());
+    glBindSampler(UNIT_SHADOW_ATLAS, compare_.id());
+    if (tile_buffer_) tile_buffer_.bind(GL_SHADER_STORAGE_BUFFER, BINDING_SHADOW_TILES);
+}
+
+}  // namespace tyndall

@@ -1,0 +1,85 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/gl/buffer.h"
+#include "engine/gl/sampler.h"
+#include "engine/gl/texture.h"
+#include "engine/graph/pass_list.h"
+#include "engine/render/atlas_allocator.h"
+#include "engine/render/draw_list.h"
+#include "engine/render/frame_context.h"
+#include "engine/render/passes/shadow_casters.h"
+#include "shaders/shared/lights.h"
+
+namespace tyndall {
+
+/// Shadow maps of spot and point lights: tiles of one texture, sized by importance on screen. A tile is drawn again
+/// only when its place, its light or a caster in its view changed.
+class ShadowAtlasPass {
+  public:
+    explicit ShadowAtlasPass(ShaderLibrary& shaders);
+
+    struct Output {
+        TextureRef atlas;  ///< D32F; empty when no lamp of the scene casts shadows or shadows are off
+        BufferRef tiles;   ///< shared::ShadowTile[]
+    };
+    /// `lights_in_view`: indices into scene.lights. Gives their shadow casters tiles and adds the pass
+    /// "shadow_atlas" if any must be drawn (else skips it with the reason). Lights out of view keep tiles while
+    /// there is room. Without a shadow-casting lamp, or with settings.shadows off, everything is freed.
+    Output add(FrameContext& context, std::span<const std::size_t> lights_in_view);
+    /// Index of a scene light's first tile in the tile buffer, -1 when it has none. Valid after add().
+    [[nodiscard]] int first_tile(std::size_t scene_light_index) const;
+    /// Tiles that this frame's pass list has drawn.
+    [[nodiscard]] int tiles_drawn() const { return tiles_drawn_; }
+    /// Binds texture, compare sampler and tile buffer (UNIT_SHADOW_ATLAS, BINDING_SHADOW_TILES) for
+    /// shadow_lookup.glsl.
+    void bind() const;
+
+  private:
+    struct Tile {
+        AtlasTile place;
+        std::uint64_t drawn_key = 0;
+    };
+    struct LightTiles {
+        int level = -1;  ///< from shadow_tile_level, of the last time in view
+        int wanted = 0;  ///< px, 0 when out of view
+        int first = -1;
+        std::uint64_t seen = 0;  ///< frame count of the last time in view
+        std::vector<Tile> tiles;
+        [[nodiscard]] int size() const { return tiles.empty() ? 0 : tiles[0].place.size; }
+    };
+    struct Redraw {
+        std::size_t light, tile;
+        std::uint64_t key;
+        shared::ShadowTile data;
+    };
+
+    void release(FrameContext& context, const char* reason);
+    void plan(const FrameContext& context, std::span<const std::size_t> casters);
+    void assign(const Scene& scene, std::span<const std::size_t> casters);
+    [[nodiscard]] bool place(LightTiles& light, int count, int size);
+    void drop(LightTiles& light);
+    [[nodiscard]] bool drop_one_out_of_view();
+    void repack(const Scene& scene, std::span<const std::size_t> casters);
+    void number_tiles(const Scene& scene);
+    void find_redraws(const FrameContext& context, std::span<const std::size_t> casters);
+    void draw(const PassContext& pass, const GpuScene& gpu);
+
+    ShadowDepth depth_;
+    gl::Sampler compare_;
+    gl::Texture atlas_;
+    gl::Buffer tile_buffer_;
+    AtlasAllocator allocator_;
+    std::vector<LightTiles> lights_;  // one per scene light
+    std::vector<shared::ShadowTile> tile_data_;
+    std::vector<Redraw> redraws_;
+    DrawList draws_;
+    std::uint64_t frame_ = 0;
+    int tiles_drawn_ = 0;
+    bool warned_ = false;
+};
+
+}  // namespace tyndall

@@ -1,0 +1,92 @@
+#include "engine/render/passes/shadow_casters.h"
+
+#include <bit>
+
+namespace tyndall {
+namespace {
+
+const ProgramDesc depth_program{"shadow_depth",
+                                {{GL_VERTEX_SHADER, "shaders/engine/shadow_depth.vert"},
+                                 {GL_FRAGMENT_SHADER, "shaders/engine/shadow_depth.frag"}},
+                                {{"ALPHA_MASK", {0, 1}}},
+                                {}};
+const ProgramRegistry::Registration depth_registration(depth_program);
+
+void add_bounds(ShadowKey& key, const Aabb& box) {
+    key.add(glm::vec4(box.min, 0));
+    key.add(glm::vec4(box.max, 0));
+}
+
+}  // namespace
+
+void ShadowKey::add(std::span<const float> values) {
+    for (const float v : values) add(std::uint64_t{std::bit_cast<std::uint32_t>(v)});
+}
+
+ShadowCasters::ShadowCasters(const Scene& scene, const GpuScene& gpu) : scene_(scene), instances_(gpu.instances()) {
+    ShadowKey key;
+    for (std::size_t i = 0; i < instances_.size(); ++i) {
+        const Instance& instance = instances_[i];
+        if (!instance.cast_shadow || gpu.material(instance.material).alpha_blend) continue;
+        if (instance.dynamic) {
+            moving_.push_back(i);
+            continue;
+        }
+        key.add(std::uint64_t{gpu.range(instance.mesh).index_count});
+        key.add(scene.nodes[instance.node].world);
+        add_bounds(key, instance.bounds);
+    }
+    static_key_ = key.value();
+}
+
+std::uint64_t ShadowCasters::moving_key(const Frustum& volume) const {
+    ShadowKey key;
+    for (const std::size_t i : moving_) {
+        if (!volume.intersects(instances_[i].bounds)) continue;
+        key.add(std::uint64_t{i});
+        key.add(scene_.nodes[instances_[i].node].world);
+    }
+    return key.value();
+}
+
+bool ShadowCasters::moving_within(glm::vec3 center, float radius) const {
+    for (const std::size_t i : moving_) {
+        const Aabb& box = instances_[i].bounds;
+        const glm::vec3 offset = center - glm::clamp(center, box.min, box.max);
+        if (glm::dot(offset, offset) <= radius * radius) return true;
+    }
+    return false;
+}
+
+ShadowDepth::ShadowDepth(ShaderLibrary& shaders)
+    : shaders_(shaders),
+      sampler_({.min_filter = GL_LINEAR_MIPMAP_LINEAR, .wrap = GL_REPEAT}, "shadow_depth base colour") {}
+
+gl::DrawState ShadowDepth::state(bool depth_clamp) {
+    return {
+        .depth_test = true, .depth_write = true, .depth_clamp = depth_clamp, .slope_bias = -1, .constant_bias = -2};
+}
+
+void ShadowDepth::draw(const GpuScene& gpu, const DrawList& list, int view, const glm::mat4& world_to_clip) const {
+    const gl::Program* programs[2] = {};
+    glBindSampler(0, sampler_.id());
+    list.draw(
+        gpu,
+        [&](int index) {
+            const GpuScene::GpuMaterial& material = gpu.material(index);
+            const gl::Program*& program = programs[material.alpha_mask];
+            if (program == nullptr) {
+                program = &shaders_.get(depth_program, {{"ALPHA_MASK", material.alpha_mask}});
+                program->set("world_to_clip", world_to_clip);
+            }
+            program->use();
+            if (!material.alpha_mask) return;
+            glBindTextureUnit(0, material.base_color);
+            program->set("alpha_factor", material.base_color_factor.a);
+            program->set("alpha_cutoff", material.emissive_alpha_cutoff.a);
+        },
+        view);
+    glBindSampler(0, 0);
+}
+
+}  // namespace tyndall

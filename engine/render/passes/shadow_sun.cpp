@@ -1,0 +1,120 @@
+#include "engine/render/passes/shadow_sun.h"
+
+#include <fmt/format.h>
+
+#include "shaders/shared/bindings.h"
+#include "shaders/shared/shadows.h"
+
+namespace tyndall {
+namespace {
+
+std::string pass_name(int index) {
+    return index < SUN_CASCADES ? fmt::format("shadow_sun/cascade_{}", index) : "shadow_sun/static";
+}
+
+gl::TextureDesc map_desc(gl::TextureKind kind, int size, int layers) {
+    return {.kind = kind, .format = GL_DEPTH_COMPONENT32F, .size = {size, size, layers}};
+}
+
+void ensure(gl::Texture& texture, const gl::TextureDesc& desc, const char* label) {
+    if (!texture || texture.desc() != desc) texture = gl::Texture(desc, label);
+}
+
+}  // namespace
+
+ShadowSunPass::ShadowSunPass(ShaderLibrary& shaders)
+    : depth_(shaders), compare_({.compare = true, .compare_func = GL_GEQUAL}, "sun shadow compare") {}
+
+void ShadowSunPass::release(FrameContext& context, const std::string& reason) {
+    cascades_ = {};
+    static_ = {};
+    for (int i = 0; i <= SUN_CASCADES; ++i) {
+        maps_[i] = {};
+        context.passes.skip(pass_name(i), reason);
+    }
+}
+
+void ShadowSunPass::resize(const RenderSettings& settings) {
+    ensure(cascades_, map_desc(gl::TextureKind::d2_array, settings.cascade_size, SUN_CASCADES), "sun cascades");
+    ensure(static_, map_desc(gl::TextureKind::d2, settings.static_shadow_size, 1), "sun static shadow");
+}
+
+void ShadowSunPass::fit(FrameContext& context, glm::vec3 direction) {
+    const RenderSettings& settings = context.settings;
+    const View& view = context.view;
+    const float far = std::max(settings.cascade_distance, 2 * view.znear);
+    const auto ends = cascade_ends(view.znear, far, settings.cascade_split);
+    shared::FrameData& frame = context.frame;
+    for (int i = 0; i < SUN_CASCADES; ++i) {
+        const float begin = i == 0 ? view.znear : ends[i - 1] * (1 - SUN_CASCADE_BLEND);
+        maps_[i].fit = fit_cascade(view, begin, ends[i], direction, settings.cascade_size);
+        frame.sun_cascade[i] = maps_[i].fit.world_to_texture;
+        frame.sun_cascade_far[i] = ends[i];
+        frame.sun_texel[i] = maps_[i].fit.texel;
+    }
+    const SunMap all = fit_static(context.scene.bounds, direction, settings.static_shadow_size);
+    maps_[static_map].fit = all;
+    frame.sun_static = all.world_to_texture;
+    frame.sun_static_texel = glm::vec4(all.texel, 1.0f / static_cast<float>(settings.cascade_size),
+                                       1.0f / static_cast<float>(settings.static_shadow_size), 0);
+}
+
+TextureRef ShadowSunPass::add_map(FrameContext& context, const ShadowCasters& casters, int index,
+                                  TextureRef texture) {
+    Map& map = maps_[index];
+    const bool is_static = index == static_map;
+    const Frustum volume = caster_volume(map.fit);
+    ShadowKey key;
+    key.add(map.fit.world_to_texture);
+    key.add(std::uint64_t{(is_static ? static_ : cascades_).id()});
+    key.add(casters.static_key());
+    if (!is_static) key.add(casters.moving_key(volume));
+    if (key.value() == map.drawn_key) {
+        context.passes.skip(pass_name(index), "unchanged since it was drawn");
+        return texture;
+    }
+    context.passes.add(
+        pass_name(index),
+        [&](PassBuilder& pass) { texture = pass.attach_depth(texture, 0, is_static ? -1 : index); },
+        [this, &map, volume, is_static, key, &gpu = context.gpu](const PassContext& pass) {
+            pass.bind_framebuffer();
+            gl::apply(ShadowDepth::state(true));
+            glClearDepthf(0);
+            glClear(GL_DEPTH_BUFFER_BIT);
+            map.draws.build(gpu, volume,
+                            is_static ? DrawList::Filter::static_shadow_casters : DrawList::Filter::shadow_casters);
+            gpu.bind();
+            depth_.draw(gpu, map.draws, 0, world_to_clip(map.fit));
+            map.drawn_key = key.value();
+        });
+    return texture;
+}
+
+ShadowSunPass::Output ShadowSunPass::add(FrameContext& context) {
+    const auto sun = context.scene.sun();
+    const bool casts = sun && context.scene.lights[*sun].shadow;
+    if (!context.facts.has_sun || !sun || !casts || !context.settings.shadows) {
+        release(context, !context.settings.shadows        ? "shadows are off"
+                         : !context.facts.has_sun || !sun ? "no sun in the scene"
+                                                          : "the sun casts no shadow");
+        return {};
+    }
+    resize(context.settings);
+    const Light& light = context.scene.lights[*sun];
+    fit(context, -glm::vec3(context.scene.nodes[light.node].world[2]));
+
+    const ShadowCasters casters(context.scene, context.gpu);
+    Output out{context.passes.import("sun cascades", cascades_), context.passes.import("sun static", static_)};
+    for (int i = 0; i < SUN_CASCADES; ++i) out.cascades = add_map(context, casters, i, out.cascades);
+    out.static_map = add_map(context, casters, static_map, out.static_map);
+    return out;
+}
+
+void ShadowSunPass::bind() const {
+    glBindTextureUnit(UNIT_SUN_CASCADES, cascades_.id());
+    glBindTextureUnit(UNIT_SUN_STATIC, static_.id());
+    glBindSampler(UNIT_SUN_CASCADES, compare_.id());
+    glBindSampler(UNIT_SUN_STATIC, compare_.id());
+}
+
+}  // namespace tyndall

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "engine/gl/sampler.h"
+#include "engine/gl/texture.h"
+#include "engine/graph/pass_list.h"
+#include "engine/render/draw_list.h"
+#include "engine/render/frame_context.h"
+#include "engine/render/passes/shadow_casters.h"
+#include "engine/render/sun_cascades.h"
+
+namespace tyndall {
+
+/// Shadow maps of the sun: stable cascades near the eye, and behind them one map of the whole scene without what
+/// moves. A map is drawn again only when its matrix or a caster in it changed.
+class ShadowSunPass {
+  public:
+    explicit ShadowSunPass(ShaderLibrary& shaders);
+
+    struct Output {
+        TextureRef cascades;    ///< D32F array, SUN_CASCADES layers; empty when there is no sun or shadows are off
+        TextureRef static_map;  ///< D32F; likewise
+    };
+    /// Adds "shadow_sun/cascade_0" … "_3" and "shadow_sun/static" (or skips them with the reason) and fills
+    /// frame.sun_cascade, sun_static, sun_cascade_far, sun_texel and sun_static_texel. Without a sun, or with
+    /// settings.shadows off, the textures are freed.
+    Output add(FrameContext& context);
+    /// Binds textures and compare samplers at UNIT_SUN_CASCADES and UNIT_SUN_STATIC, for shadow_lookup.glsl.
+    void bind() const;
+
+  private:
+    static constexpr int static_map = SUN_CASCADES;  // index in maps_
+    struct Map {
+        SunMap fit;
+        std::uint64_t drawn_key = 0;
+        DrawList draws;
+    };
+    void release(FrameContext& context, const std::string& reason);
+    void resize(const RenderSettings& settings);
+    void fit(FrameContext& context, glm::vec3 direction);
+    TextureRef add_map(FrameContext& context, const ShadowCasters& casters, int index, TextureRef texture);
+
+    ShadowDepth depth_;
+    gl::Sampler compare_;
+    gl::Texture cascades_, static_;
+    std::array<Map, SUN_CASCADES + 1> maps_;
+};
+
+}  // namespace tyndall

@@ -1,0 +1,15 @@
+// Nothing but depth; alpha-masked materials have holes.
+#version 450
+
+#if ALPHA_MASK
+in vec2 surface_uv;
+layout(binding = 0) uniform sampler2D base_color;
+uniform float alpha_factor;
+uniform float alpha_cutoff;
+#endif
+
+void main() {
+#if ALPHA_MASK
+    if (texture(base_color, surface_uv).a * alpha_factor < alpha_cutoff) discard;
+#endif
+}
