@@ -2,24 +2,33 @@
 #ifndef ENGINE_LIGHT_DATA_GLSL
 #define ENGINE_LIGHT_DATA_GLSL
 
-#include "shaders/shared/bindings.h"
-#include "shaders/shared/frame.h"
+#include "shaders/engine/frame_block.glsl"
 #include "shaders/shared/lights.h"
 
-layout(std140, binding = BINDING_FRAME) uniform FrameBlock { FrameData frame; };
 layout(std430, binding = BINDING_LIGHTS) readonly buffer LightBuffer { GpuLight lights[]; };
 layout(std430, binding = BINDING_CLUSTERS) readonly buffer ClusterBuffer { ClusterRange clusters[]; };
 layout(std430, binding = BINDING_CLUSTER_LIGHTS) readonly buffer ClusterLightBuffer { uint cluster_lights[]; };
 layout(binding = UNIT_AMBIENT) uniform samplerCube ambient_cube;  // irradiance / pi per direction, mipped to 1x1
 
-// Slices are logarithmic in view depth; slice 0 also holds everything nearer than the cluster near plane.
-ClusterRange cluster_at(vec2 uv, float view_depth) {
-    uvec3 size = frame.cluster_size.xyz;
+// Slices are logarithmic in view depth. Slice 0 also holds everything nearer than the cluster near plane, the last one
+// everything farther than the far plane.
+int cluster_slice(float view_depth) {
     float slice = log(max(view_depth, frame.depth.y) / frame.depth.y) * frame.depth.w;
-    if (slice >= float(size.z)) return ClusterRange(0u, 0u);
+    return int(min(slice, float(frame.cluster_size.z) - 0.5));
+}
+
+float cluster_slice_end(int slice) {
+    if (slice + 1 >= int(frame.cluster_size.z)) return 1.0e9;
+    return frame.depth.y * exp(float(slice + 1) / frame.depth.w);
+}
+
+ClusterRange cluster_in(vec2 uv, int slice) {
+    uvec3 size = frame.cluster_size.xyz;
     uvec3 c = min(uvec3(clamp(uv, 0.0, 1.0) * vec2(size.xy), uint(slice)), size - 1u);
     return clusters[c.x + size.x * (c.y + size.y * c.z)];
 }
+
+ClusterRange cluster_at(vec2 uv, float view_depth) { return cluster_in(uv, cluster_slice(view_depth)); }
 
 // Mean radiance over all directions: the mean of irradiance / pi over the sphere is the mean of the radiance, and the
 // last mip holds one texel a face.

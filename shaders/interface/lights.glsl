@@ -15,6 +15,12 @@ vec3 ambient_radiance() { return ambient_mean_radiance(); }
 // The local lights that may reach a point: a range of the list that light_at() indexes. `uv` is the screen position
 // (0..1, origin lower left), `view_depth` the distance along the view axis in metres.
 ClusterRange lights_near(vec2 uv, float view_depth) { return cluster_at(uv, view_depth); }
+// Along a view ray that list changes only between depth slices: the slice at a view depth (>= 0), the view depth where a
+// slice ends (at least 1e9 for the last one), and the list in a slice. Without clusters: slice 0 holds all.
+// A light must be listed wherever a point within its range (and, for a spot, its cone) lies.
+int light_slice(float view_depth) { return cluster_slice(view_depth); }
+float light_slice_end(int slice) { return cluster_slice_end(slice); }
+ClusterRange lights_in_slice(vec2 uv, int slice) { return cluster_in(uv, slice); }
 uint light_index(uint i) { return cluster_lights[i]; }
 GpuLight light_at(uint index) { return lights[index]; }
 

@@ -16,6 +16,7 @@
 #define BINDING_VISIBLE_INSTANCES 6
 #define BINDING_LOCAL_MEDIA 7
 #define BINDING_DITHER 8
+#define BINDING_MEDIA_TILES 9
 #define BINDING_WORK 15
 
 // Texture units of the lighting contract; passes use units 0-7 for their own textures.

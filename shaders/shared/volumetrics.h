@@ -23,23 +23,20 @@ struct LocalMedium {
     vec4 sigma_a_shape;    // rgb 1/m at density 1, w SHAPE_*
     vec4 emission_noise;   // rgb radiance per metre at density 1, w noise amount 0..1
     vec4 noise_height;     // x noise scale (m), y seed, z base (m), w falloff (m); falloff 0 = no height profile
-    vec4 bounds_min;       // xyz world box
-    vec4 bounds_max;
 };
 
 struct VolumetricsData {
-    mat4 view;
-    mat4 inverse_view_projection;
     mat4 inverse_projection;
     mat4 inverse_view;
-    vec4 eye;               // xyz world, w near (m)
-    vec4 viewport;          // width, height, 1/width, 1/height of the march target, px
-    vec4 homogeneous_sigma_s;  // rgb 1/m, w anisotropy (weighted by scattering over the homogeneous media)
-    vec4 homogeneous_sigma_t;  // rgb 1/m
-    vec4 homogeneous_emission; // rgb radiance per metre
-    uvec4 counts;           // x height media, y local media, z steps, w frame index
-    vec4 froxel_size;       // xyz grid, w far distance (m, view depth)
-    vec4 march;             // x max distance (m), y exponential stepping strength, z dither size, w unused
+    vec4 eye;                   // xyz world, w near (m)
+    vec4 viewport;              // width, height, 1/width, 1/height of the march target, px
+    vec4 homogeneous_sigma_s;   // rgb 1/m, w anisotropy (weighted by scattering over the homogeneous media)
+    vec4 homogeneous_sigma_t;   // rgb 1/m
+    vec4 homogeneous_emission;  // rgb radiance per metre
+    uvec4 counts;               // x height media, y local media, z steps, w side of the dither tile (px)
+    uvec4 options;              // x PHASE_*, y 1: light is attenuated on its way in, z 1: ambient light, w FROXEL_*
+    vec4 march;                 // x max distance (m), y first step / ray length, z each step / the one before
+    vec4 froxel_depths;         // x nearest, y farthest view depth (m) of the froxel volume
     HeightMedium height[MAX_HEIGHT_MEDIA];
 };
 

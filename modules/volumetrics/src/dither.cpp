@@ -1,0 +1,22 @@
+#include "dither.h"
+
+#include "shaders/lib/glm_subset.h"
+
+TYNDALL_GLSL_BEGIN
+#include "shaders/lib/dither.glsl"
+TYNDALL_GLSL_END
+
+namespace tyndall::volumetrics {
+
+std::vector<float> dither_tile(Dither dither, int size) {
+    if (dither == Dither::none) return {0.5F};
+    constexpr unsigned seed = 1;
+    const int kind = dither == Dither::bayer ? glsl::DITHER_BAYER : glsl::DITHER_WHITE;
+    const auto side = static_cast<unsigned>(size);
+    std::vector<float> tile;
+    for (unsigned y = 0; y < side; ++y)
+        for (unsigned x = 0; x < side; ++x) tile.push_back(glsl::dither_offset(kind, {x, y}, side, seed));
+    return tile;
+}
+
+}  // namespace tyndall::volumetrics

@@ -1,0 +1,93 @@
+#include "froxel_tiles.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "shaders/lib/glm_subset.h"
+
+TYNDALL_GLSL_BEGIN
+#include "shaders/lib/froxel.glsl"
+TYNDALL_GLSL_END
+
+namespace tyndall::volumetrics {
+namespace {
+
+/// View depths in x (nearest) and y (farthest) of the corners, and their bounds on the screen (0..1).
+struct ViewBounds {
+    float nearest = std::numeric_limits<float>::max(), farthest = 0;
+    glm::vec2 lower{1}, upper{0};
+};
+
+ViewBounds view_bounds(const LocalMedium& medium, const Inputs& inputs) {
+    const glm::mat3 rotation = glm::mat3_cast(medium.rotation);
+    ViewBounds bounds;
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::vec3 side{(corner & 1) * 2 - 1, (corner & 2) - 1, (corner & 4) / 2 - 1};
+        const glm::vec4 view = inputs.view * glm::vec4(medium.center + rotation * (side * medium.half_extent), 1);
+        const float depth = -view.z;
+        bounds.nearest = std::min(bounds.nearest, depth);
+        bounds.farthest = std::max(bounds.farthest, depth);
+        if (depth <= 0) continue;
+        const glm::vec4 clip = inputs.projection * view;
+        const glm::vec2 uv = 0.5F * glm::vec2(clip) / clip.w + 0.5F;
+        bounds.lower = glm::min(bounds.lower, uv);
+        bounds.upper = glm::max(bounds.upper, uv);
+    }
+    if (bounds.nearest <= 0) {  // reaches behind the eye: its outline has no bounds
+        bounds.lower = glm::vec2(0);
+        bounds.upper = glm::vec2(1);
+    }
+    return bounds;
+}
+
+}  // namespace
+
+FroxelGrid froxel_grid(const Inputs& inputs, const Settings& settings) {
+    const bool exponential = settings.froxel_distribution == DepthDistribution::exponential;
+    // Slices in proportion to their depth would crowd at a near plane of centimetres.
+    const float nearest = exponential ? std::max(inputs.znear, settings.froxel_far / 256) : inputs.znear;
+    return {.size = {settings.froxels_x, settings.froxels_y, settings.froxels_z},
+            .distribution = exponential ? glsl::FROXEL_EXPONENTIAL : glsl::FROXEL_LINEAR,
+            .nearest = nearest,
+            .farthest = std::max(settings.froxel_far, 2 * nearest)};
+}
+
+IndexBox froxel_bounds(const LocalMedium& medium, const Inputs& inputs, const FroxelGrid& grid) {
+    const ViewBounds bounds = view_bounds(medium, inputs);
+    if (bounds.farthest <= 0 || bounds.nearest >= grid.farthest) return {};
+    const auto w = [&](float depth) {
+        return glsl::froxel_w_from_view_depth(grid.distribution, std::max(depth, 0.0F), grid.nearest,
+                                              grid.farthest);
+    };
+    // A froxel centre within half a froxel of the bound is taken too: rounding never loses one. In front of the
+    // first slice's centre the march reads the first slice, so a medium there still counts as in it.
+    const glm::vec3 size = grid.size;
+    const glm::vec3 lower = glm::clamp(glm::vec3(bounds.lower, w(bounds.nearest)), -1.0F, 2.0F) * size - 1.0F;
+    const glm::vec3 upper = glm::clamp(glm::vec3(bounds.upper, w(bounds.farthest)), -1.0F, 2.0F) * size + 1.0F;
+    IndexBox box{.lower = glm::max(glm::ivec3(glm::floor(lower)), 0),
+                 .upper = glm::min(glm::ivec3(glm::ceil(upper)), grid.size)};
+    return box;
+}
+
+glm::ivec3 tile_counts(glm::ivec3 froxels) {
+    return (froxels + froxel_tile - 1) / froxel_tile;
+}
+
+std::vector<std::uint32_t> tile_masks(std::span<const IndexBox> boxes, glm::ivec3 froxels) {
+    const glm::ivec3 tiles = tile_counts(froxels);
+    const std::size_t words = (boxes.size() + 31) / 32;
+    std::vector<std::uint32_t> masks(words * static_cast<std::size_t>(tiles.x) * tiles.y * tiles.z);
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+        const glm::ivec3 lower = boxes[i].lower / froxel_tile;
+        const glm::ivec3 upper = (boxes[i].upper + froxel_tile - 1) / froxel_tile;
+        for (int z = lower.z; z < upper.z; ++z)
+            for (int y = lower.y; y < upper.y; ++y)
+                for (int x = lower.x; x < upper.x; ++x) {
+                    const std::size_t tile = x + static_cast<std::size_t>(tiles.x) * (y + tiles.y * z);
+                    masks[tile * words + i / 32] |= 1U << (i % 32);
+                }
+    }
+    return masks;
+}
+
+}  // namespace tyndall::volumetrics

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "media.h"
+
+namespace tyndall::volumetrics {
+
+/// The froxel volume: size, and the view depths [m] its slices divide (shaders/lib/froxel.glsl).
+struct FroxelGrid {
+    glm::ivec3 size;
+    int distribution;  ///< FROXEL_*
+    float nearest, farthest;
+};
+[[nodiscard]] FroxelGrid froxel_grid(const Inputs& inputs, const Settings& settings);
+
+/// The froxels whose centres a medium may cover, never too few; empty when it is out of view.
+[[nodiscard]] IndexBox froxel_bounds(const LocalMedium& medium, const Inputs& inputs, const FroxelGrid& grid);
+
+/// Froxels of one tile: one work group of shaders/volumetrics/inject_media.comp.
+constexpr glm::ivec3 froxel_tile{16, 16, 1};
+[[nodiscard]] glm::ivec3 tile_counts(glm::ivec3 froxels);
+
+/// For each tile, x first: (boxes.size() + 31) / 32 words, in which bit i says that box i meets the tile.
+[[nodiscard]] std::vector<std::uint32_t> tile_masks(std::span<const IndexBox> boxes, glm::ivec3 froxels);
+
+}  // namespace tyndall::volumetrics

@@ -1,0 +1,72 @@
+#include "engine/gl/state.h"
+#include "engine/gl/vertex_array.h"
+#include "passes.h"
+#include "shaders/shared/bindings.h"
+
+namespace tyndall::volumetrics {
+namespace {
+
+const ProgramDesc program{.name = "volumetrics/march",
+                          .stages = {{GL_VERTEX_SHADER, "shaders/volumetrics/march.vert"},
+                                     {GL_FRAGMENT_SHADER, "shaders/volumetrics/march.frag"}},
+                          .axes = {{"HAS_HEIGHT", {0, 1}},
+                                   {"LOCAL_MEDIA", {0, 1, 2}},  // 2: some emit
+                                   {"HAS_SUN", {0, 1}},
+                                   {"LAMPS", {0, 1, 2}},  // 1: sampled, 2: over the segment
+                                   {"CHROMATIC", {0, 1}},
+                                   {"COUNT_WORK", {0, 1}}},
+                          .valid = {}};
+const ProgramRegistry::Registration registration(program);
+
+Permutation permutation(const Inputs& inputs, const Settings& settings, const FrameMedia& media) {
+    const bool local = !media.local.empty();
+    const int lamps = settings.lamp_integration == LampIntegration::segment ? 2 : 1;
+    return {{"HAS_HEIGHT", media.has_height}, {"LOCAL_MEDIA", local + (local && media.local_emission)},
+            {"HAS_SUN", inputs.has_sun},      {"LAMPS", inputs.has_lamps ? lamps : 0},
+            {"CHROMATIC", media.chromatic},   {"COUNT_WORK", inputs.count_work}};
+}
+
+}  // namespace
+
+Outputs add_march(PassList& passes, const PassResources& resources, const Inputs& inputs, const Settings& settings,
+                  const FrameMedia& media, const FroxelMedia& froxels) {
+    const gl::TextureDesc desc{.format = GL_RGBA16F, .size = {inputs.size, 1}};
+    Outputs outputs;
+    outputs.scattering = passes.create("volumetrics/scattering", desc);
+    if (media.chromatic) outputs.transmittance = passes.create("volumetrics/transmittance", desc);
+
+    const gl::Program& shader = resources.shaders.get(program, permutation(inputs, settings, media));
+    const bool lit = inputs.has_sun || inputs.has_lamps || inputs.has_ambient;
+    passes.add(
+        "volumetrics/march",
+        [&](PassBuilder& builder) {
+            builder.sample(inputs.depth);
+            builder.sample(froxels.scattering);
+            builder.sample(froxels.extinction);
+            builder.sample(froxels.emission);
+            if (lit) {
+                for (TextureRef texture : inputs.light_textures) builder.sample(texture);
+                for (BufferRef buffer : inputs.light_buffers) builder.read(buffer);
+            }
+            outputs.scattering = builder.attach_color(outputs.scattering);
+            if (outputs.transmittance) outputs.transmittance = builder.attach_color(outputs.transmittance);
+        },
+        [froxels, depth = inputs.depth, bind_lighting = lit ? inputs.bind_lighting : nullptr, &shader,
+         &resources](const PassContext& context) {
+            const auto texture = [&](TextureRef ref) { return ref ? context.texture(ref) : gl::TextureView(); };
+            gl::apply({});
+            context.bind_framebuffer();
+            if (bind_lighting) bind_lighting();
+            const BoundTextures bound{{texture(depth), resources.nearest},
+                                      {texture(froxels.scattering), resources.linear},
+                                      {texture(froxels.extinction), resources.linear},
+                                      {texture(froxels.emission), resources.linear}};
+            resources.uniforms.bind(GL_UNIFORM_BUFFER, BINDING_VOLUMETRICS);
+            resources.dither.bind(GL_SHADER_STORAGE_BUFFER, BINDING_DITHER);
+            shader.use();
+            gl::draw_fullscreen();
+        });
+    return outputs;
+}
+
+}  // namespace tyndall::volumetrics

@@ -1,0 +1,133 @@
+#include "media.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <glm/gtc/matrix_access.hpp>
+
+#include "engine/core/error.h"
+#include "froxel_tiles.h"
+#include "shaders/lib/glm_subset.h"
+
+TYNDALL_GLSL_BEGIN
+#include "shaders/lib/phase.glsl"
+TYNDALL_GLSL_END
+
+namespace tyndall::volumetrics {
+namespace {
+
+bool is_zero(glm::vec3 v) {
+    return v == glm::vec3(0);
+}
+template <class M>
+bool does_nothing(const M& medium) {
+    return is_zero(medium.sigma_s) && is_zero(medium.sigma_a) && is_zero(medium.emission);
+}
+bool is_coloured(glm::vec3 sigma_t) {
+    return sigma_t.r != sigma_t.g || sigma_t.g != sigma_t.b;
+}
+float mean(glm::vec3 v) {
+    return (v.r + v.g + v.b) / 3;
+}
+
+void add_homogeneous(const GlobalMedium& medium, shared::VolumetricsData& data) {
+    glm::vec4& s = data.homogeneous_sigma_s;
+    const float before = mean(s), added = mean(medium.sigma_s);
+    if (before + added > 0) s.w = (s.w * before + medium.anisotropy * added) / (before + added);
+    s += glm::vec4(medium.sigma_s, 0);
+    data.homogeneous_sigma_t += glm::vec4(medium.sigma_s + medium.sigma_a, 0);
+    data.homogeneous_emission += glm::vec4(medium.emission, 0);
+}
+
+shared::HeightMedium pack_height(const GlobalMedium& medium) {
+    return {.sigma_s_base = {medium.sigma_s, medium.base},
+            .sigma_t_falloff = {medium.sigma_s + medium.sigma_a, medium.falloff},
+            .emission_g = {medium.emission, medium.anisotropy}};
+}
+
+shared::LocalMedium pack_local(const LocalMedium& medium) {
+    const glm::mat4 rotation = glm::mat4_cast(glm::conjugate(medium.rotation));
+    const bool noise = medium.noise_scale > 0 && medium.noise_amount > 0;
+    return {.world_to_shape = glm::translate(rotation, -medium.center),
+            .extent_softness = {medium.half_extent, medium.softness},
+            .sigma_s_g = {medium.sigma_s, medium.anisotropy},
+            .sigma_a_shape = {medium.sigma_a, medium.box ? SHAPE_BOX : SHAPE_ELLIPSOID},
+            .emission_noise = {medium.emission, noise ? medium.noise_amount : 0.0F},
+            .noise_height = {medium.noise_scale, static_cast<float>(medium.noise_seed), medium.base,
+                             medium.height ? medium.falloff : 0.0F}};
+}
+
+void add_global(const Inputs& inputs, FrameMedia& media) {
+    std::size_t heights = 0;
+    for (const GlobalMedium& medium : inputs.global) {
+        if (does_nothing(medium)) continue;
+        media.has_global = true;
+        media.chromatic |= is_coloured(medium.sigma_s + medium.sigma_a);
+        if (!medium.height)
+            add_homogeneous(medium, media.data);
+        else if (heights++ < MAX_HEIGHT_MEDIA)
+            media.data.height[heights - 1] = pack_height(medium);
+    }
+    if (heights > MAX_HEIGHT_MEDIA)
+        throw Error(fmt::format("volumetrics: {} height media, at most {} expected", heights, MAX_HEIGHT_MEDIA));
+    media.has_height = heights > 0;
+    media.data.counts.x = static_cast<unsigned>(heights);
+}
+
+void add_local(const Inputs& inputs, const Settings& settings, FrameMedia& media) {
+    const FroxelGrid grid = froxel_grid(inputs, settings);
+    for (const LocalMedium& medium : inputs.local) {
+        if (does_nothing(medium)) continue;
+        const IndexBox box = froxel_bounds(medium, inputs, grid);
+        if (box.empty()) continue;
+        media.local.push_back(pack_local(medium));
+        media.local_froxels.push_back(box);
+        media.local_emission |= !is_zero(medium.emission);
+        media.chromatic |= is_coloured(medium.sigma_s + medium.sigma_a);
+    }
+    media.data.counts.y = static_cast<unsigned>(media.local.size());
+    media.data.options.w = static_cast<unsigned>(grid.distribution);
+    media.data.froxel_depths = {grid.nearest, grid.farthest, 0, 0};
+}
+
+/// Segment i of N has the length first * ratio^i of the ray, which sums to 1; the last is ratio^(N-1) = e^strength
+/// times the first. Strength 0 is uniform.
+void set_stepping(const Settings& settings, shared::VolumetricsData& data) {
+    const double n = settings.steps;
+    double first = 1 / n, ratio = 1;
+    if (settings.stepping == Stepping::exponential && settings.steps > 1) {
+        const double growth = settings.stepping_strength / (n - 1);
+        ratio = std::exp(growth);
+        first = std::expm1(growth) / std::expm1(growth * n);
+    }
+    data.march = {settings.max_distance, first, ratio, 0};
+}
+
+void set_view(const Inputs& inputs, shared::VolumetricsData& data) {
+    data.inverse_projection = glm::inverse(inputs.projection);
+    data.inverse_view = glm::inverse(inputs.view);
+    data.eye = {inputs.eye, inputs.znear};
+    const glm::vec2 size = inputs.size;
+    data.viewport = {size, 1.0F / size};
+}
+
+}  // namespace
+
+FrameMedia gather_media(const Inputs& inputs, const Settings& settings) {
+    FrameMedia media;
+    if (settings.technique == Technique::off) return media;
+    add_global(inputs, media);
+    add_local(inputs, settings, media);
+    if (media.empty()) return media;
+    set_view(inputs, media.data);
+    set_stepping(settings, media.data);
+    media.data.counts.z = static_cast<unsigned>(settings.steps);
+    media.data.counts.w = settings.dither == Dither::none ? 1U : static_cast<unsigned>(settings.dither_size);
+    media.data.options.x =
+        settings.phase == PhaseFunction::schlick ? glsl::PHASE_SCHLICK : glsl::PHASE_HENYEY_GREENSTEIN;
+    media.data.options.y = settings.light_transmittance ? 1U : 0U;
+    media.data.options.z = inputs.has_ambient ? 1U : 0U;
+    return media;
+}
+
+}  // namespace tyndall::volumetrics

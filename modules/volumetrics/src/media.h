@@ -1,0 +1,33 @@
+#pragma once
+
+#include <vector>
+
+#include "shaders/shared/volumetrics.h"
+#include "volumetrics/inputs.h"
+#include "volumetrics/settings.h"
+
+namespace tyndall::volumetrics {
+
+/// A range of froxels, or of tiles of them: lower corner included, upper not.
+struct IndexBox {
+    glm::ivec3 lower{0}, upper{0};
+    [[nodiscard]] bool empty() const { return lower.x >= upper.x || lower.y >= upper.y || lower.z >= upper.z; }
+};
+
+/// What one frame's inputs come to: media that do nothing, and local media out of view, are left out.
+struct FrameMedia {
+    shared::VolumetricsData data{};
+    std::vector<shared::LocalMedium> local;
+    std::vector<IndexBox> local_froxels;  ///< that each local medium may touch
+    bool has_global = false;
+    bool has_height = false;
+    bool local_emission = false;
+    bool chromatic = false;  ///< some medium's extinction is coloured
+
+    [[nodiscard]] bool empty() const { return !has_global && local.empty(); }
+};
+
+/// Throws Error for more than MAX_HEIGHT_MEDIA height media.
+[[nodiscard]] FrameMedia gather_media(const Inputs& inputs, const Settings& settings);
+
+}  // namespace tyndall::volumetrics

@@ -1,0 +1,49 @@
+#pragma once
+
+#include "engine/gl/buffer.h"
+#include "engine/gl/sampler.h"
+#include "engine/shader/shader_library.h"
+#include "media.h"
+#include "volumetrics/outputs.h"
+
+namespace tyndall::volumetrics {
+
+/// Froxel volumes of the local media: RGBA16F 3D textures, see shaders/volumetrics/inject_media.comp.
+struct FroxelMedia {
+    TextureRef scattering, extinction, emission;  ///< emission only where some local medium emits
+};
+
+/// What all passes of one frame share.
+struct PassResources {
+    ShaderLibrary& shaders;
+    gl::Sampler nearest, linear;
+    gl::Buffer uniforms, local_media, media_tiles, dither;
+};
+
+[[nodiscard]] FroxelMedia add_inject_media(PassList& passes, const PassResources& resources, const Inputs& inputs,
+                                           const Settings& settings, const FrameMedia& media);
+[[nodiscard]] Outputs add_march(PassList& passes, const PassResources& resources, const Inputs& inputs,
+                                const Settings& settings, const FrameMedia& media, const FroxelMedia& froxels);
+[[nodiscard]] Outputs add_blur(PassList& passes, const PassResources& resources, const Inputs& inputs,
+                               const Settings& settings, const Outputs& source);
+[[nodiscard]] TextureRef add_composite(PassList& passes, const PassResources& resources, const Outputs& outputs,
+                                       TextureRef color, bool count_work);
+
+/// Textures and samplers of a pass, on units 0, 1, 2 …; unbinds the samplers when it goes, so that none outlives
+/// the pass on a host's texture.
+class BoundTextures {
+  public:
+    struct Unit {
+        gl::TextureView texture;
+        const gl::Sampler& sampler;
+    };
+    BoundTextures(std::initializer_list<Unit> units);
+    ~BoundTextures();
+    BoundTextures(const BoundTextures&) = delete;
+    BoundTextures& operator=(const BoundTextures&) = delete;
+
+  private:
+    std::size_t count_;
+};
+
+}  // namespace tyndall::volumetrics

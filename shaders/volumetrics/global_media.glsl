@@ -1,0 +1,91 @@
+// The media that fill space, in closed form. HAS_HEIGHT 0 removes the exponential height media.
+#ifndef VOLUMETRICS_GLOBAL_MEDIA_GLSL
+#define VOLUMETRICS_GLOBAL_MEDIA_GLSL
+
+#include "shaders/lib/transmittance.glsl"
+#include "shaders/volumetrics/data.glsl"
+
+#ifndef HAS_HEIGHT
+#define HAS_HEIGHT 1
+#endif
+
+// Keeps sums and products of optical depths finite; exp(-x) is 0 long before.
+const float MAX_OPTICAL_DEPTH = 1.0e30f;
+
+// A medium over a segment of a straight line: means over the segment, and its optical depth.
+struct Medium {
+    vec3 sigma_s;        // 1/m
+    float anisotropy;    // weighted by scattering
+    vec3 emission;       // radiance per metre
+    vec3 optical_depth;
+};
+
+float mean_channel(vec3 v) { return dot(v, vec3(1.0 / 3.0)); }
+
+float height_mean_density(HeightMedium medium, float y, float direction_y, float path_length) {
+    return height_mean_density(y, direction_y, path_length, medium.sigma_s_base.w, medium.sigma_t_falloff.w);
+}
+
+// From a point at height y over path_length metres in a direction with the vertical component direction_y.
+Medium global_medium(float y, float direction_y, float path_length) {
+    Medium m;
+    m.sigma_s = volumetrics.homogeneous_sigma_s.rgb;
+    m.emission = volumetrics.homogeneous_emission.rgb;
+    m.optical_depth = volumetrics.homogeneous_sigma_t.rgb * path_length;
+    m.anisotropy = volumetrics.homogeneous_sigma_s.w;
+#if HAS_HEIGHT
+    float weighted = m.anisotropy * mean_channel(m.sigma_s);
+    for (uint i = 0u; i < volumetrics.counts.x; ++i) {
+        HeightMedium medium = volumetrics.height[i];
+        float density = height_mean_density(medium, y, direction_y, path_length);
+        vec3 sigma_s = medium.sigma_s_base.rgb * density;
+        m.sigma_s += sigma_s;
+        m.emission += medium.emission_g.rgb * density;
+        m.optical_depth += medium.sigma_t_falloff.rgb * (density * path_length);
+        weighted += medium.emission_g.w * mean_channel(sigma_s);
+    }
+    m.optical_depth = min(m.optical_depth, MAX_OPTICAL_DEPTH);
+    m.anisotropy = weighted / max(mean_channel(m.sigma_s), 1.0e-30);
+#endif
+    return m;
+}
+
+// The height media alone: optical depth as above, and scattering at a height.
+vec3 height_optical_depth(float y, float direction_y, float path_length) {
+    vec3 depth = vec3(0.0);
+#if HAS_HEIGHT
+    for (uint i = 0u; i < volumetrics.counts.x; ++i) {
+        HeightMedium medium = volumetrics.height[i];
+        depth += medium.sigma_t_falloff.rgb *
+                 (height_mean_density(medium, y, direction_y, path_length) * path_length);
+    }
+#endif
+    return min(depth, MAX_OPTICAL_DEPTH);
+}
+
+vec3 height_sigma_s(float y) {
+    vec3 sigma_s = vec3(0.0);
+#if HAS_HEIGHT
+    for (uint i = 0u; i < volumetrics.counts.x; ++i) {
+        HeightMedium medium = volumetrics.height[i];
+        sigma_s += medium.sigma_s_base.rgb *
+                   height_density(y, medium.sigma_s_base.w, medium.sigma_t_falloff.w);
+    }
+#endif
+    return sigma_s;
+}
+
+// To infinity in a direction with the vertical component direction_y.
+vec3 height_optical_depth_to_infinity(float y, float direction_y) {
+    vec3 depth = vec3(0.0);
+#if HAS_HEIGHT
+    for (uint i = 0u; i < volumetrics.counts.x; ++i) {
+        HeightMedium medium = volumetrics.height[i];
+        depth += medium.sigma_t_falloff.rgb *
+                 height_density_length_to_infinity(y, direction_y, medium.sigma_s_base.w, medium.sigma_t_falloff.w);
+    }
+#endif
+    return min(depth, MAX_OPTICAL_DEPTH);
+}
+
+#endif

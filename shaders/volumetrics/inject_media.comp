@@ -1,0 +1,69 @@
+// Fills the froxel volume with the local media: sums of sigma_s, sigma_t and emission at each froxel's centre. The
+// anisotropy is stored as its product with the mean sigma_s, so that filtering averages it by scattering.
+#include "shaders/lib/froxel.glsl"
+#include "shaders/lib/media_shape.glsl"
+#include "shaders/lib/pack.glsl"
+#include "shaders/lib/work.glsl"
+#include "shaders/volumetrics/data.glsl"
+#include "shaders/volumetrics/ray.glsl"
+
+// One group is one tile of modules/volumetrics/src/froxel_tiles.h.
+layout(local_size_x = 16, local_size_y = 16) in;
+
+layout(std430, binding = BINDING_LOCAL_MEDIA) readonly buffer LocalMediaBuffer { LocalMedium local_media[]; };
+// Per tile, x first: a bit for each medium that may touch it, in words of 32.
+layout(std430, binding = BINDING_MEDIA_TILES) readonly buffer MediaTileBuffer { uint media_tiles[]; };
+
+layout(rgba16f, binding = 0) writeonly uniform image3D froxel_scattering;
+layout(rgba16f, binding = 1) writeonly uniform image3D froxel_extinction;
+#if EMISSION
+layout(rgba16f, binding = 2) writeonly uniform image3D froxel_emission;
+#endif
+
+float local_density(LocalMedium medium, vec3 point) {
+    vec3 p = (medium.world_to_shape * vec4(point, 1.0)).xyz;
+    vec3 extent = medium.extent_softness.xyz;
+    float softness = medium.extent_softness.w;
+    float density = int(medium.sigma_a_shape.w) == SHAPE_BOX ? box_density(p, extent, softness)
+                                                             : ellipsoid_density(p, extent, softness);
+    if (density <= 0.0) return 0.0;
+    if (medium.emission_noise.w > 0.0)
+        density *= media_noise(p, medium.noise_height.x, medium.emission_noise.w, uint(medium.noise_height.y));
+    return density * media_height(point.y, medium.noise_height.z, medium.noise_height.w);
+}
+
+void main() {
+    ivec3 size = imageSize(froxel_scattering);
+    ivec3 froxel = ivec3(gl_GlobalInvocationID);
+    if (any(greaterThanEqual(froxel, size))) return;
+
+    vec3 uvw = froxel_uvw_from_index(froxel, vec3(0.0), size);
+    Ray ray = view_ray(uvw.xy);
+    float view_depth = froxel_view_depth_from_w(int(volumetrics.options.w), uvw.z, volumetrics.froxel_depths.x,
+                                                volumetrics.froxel_depths.y);
+    vec3 point = ray.origin + ray.direction * (view_depth / ray.forward_cosine);
+
+    vec4 scattering = vec4(0.0);
+    vec3 extinction = vec3(0.0);
+    vec3 emission = vec3(0.0);
+    uint words = (volumetrics.counts.y + 31u) / 32u;
+    uvec3 tile = gl_WorkGroupID;
+    uint first = words * (tile.x + gl_NumWorkGroups.x * (tile.y + gl_NumWorkGroups.y * tile.z));
+    for (uint word = 0u; word < words; ++word) {
+        for (uint bits = media_tiles[first + word]; bits != 0u; bits &= bits - 1u) {
+            LocalMedium medium = local_media[32u * word + uint(findLSB(bits))];
+            count_work(WORK_MEDIUM_SAMPLES, 1u);
+            float density = local_density(medium, point);
+            vec3 sigma_s = medium.sigma_s_g.rgb * density;
+            scattering += vec4(sigma_s, medium.sigma_s_g.w * dot(sigma_s, vec3(1.0 / 3.0)));
+            extinction += sigma_s + medium.sigma_a_shape.rgb * density;
+            emission += medium.emission_noise.rgb * density;
+        }
+    }
+    imageStore(froxel_scattering, froxel, round_to_half(scattering));
+    imageStore(froxel_extinction, froxel, round_to_half(vec4(extinction, 0.0)));
+#if EMISSION
+    imageStore(froxel_emission, froxel, round_to_half(vec4(emission, 0.0)));
+#endif
+    flush_work();
+}

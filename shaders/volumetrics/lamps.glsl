@@ -1,0 +1,173 @@
+// In-scattering of local lights. LAMPS 1: at the sample point (the usual way). LAMPS 2: over the whole segment.
+#ifndef VOLUMETRICS_LAMPS_GLSL
+#define VOLUMETRICS_LAMPS_GLSL
+
+#include "shaders/interface/lights.glsl"
+#include "shaders/interface/shadows.glsl"
+#include "shaders/lib/lamp_segment.glsl"
+#include "shaders/lib/phase.glsl"
+#include "shaders/lib/work.glsl"
+#include "shaders/volumetrics/extinction.glsl"
+#include "shaders/volumetrics/light_transmittance.glsl"
+#include "shaders/volumetrics/ray.glsl"
+
+float lamp_inverse_range(GpuLight light) {
+    return light.position_range.w > 0.0 ? 1.0 / light.position_range.w : 0.0;
+}
+
+bool is_spot(GpuLight light) { return int(light.direction_type.w) == LIGHT_SPOT; }
+
+float lamp_visibility(uint index, GpuLight light, vec3 point) {
+    if (light.cone_shadow.z < 0.0) return 1.0;
+    count_work(WORK_SHADOW_LOOKUPS, 1u);
+    return light_visibility(index, light, point);
+}
+
+#if LAMPS == 1
+// Phase times incident illuminance of all lamps at a point [W sr^-1 m^-2 per unit of sigma_s].
+vec3 lamps_at(Ray ray, float t, float anisotropy) {
+    vec3 point = ray.origin + ray.direction * t;
+    ClusterRange range = lights_near(ray.uv, t * ray.forward_cosine);
+    vec3 sum = vec3(0.0);
+    for (uint i = 0u; i < range.count; ++i) {
+        uint index = light_index(range.offset + i);
+        GpuLight light = light_at(index);
+        count_work(WORK_LIGHT_EVALUATIONS, 1u);
+        vec3 to_lamp = light.position_range.xyz - point;
+        float distance_squared = dot(to_lamp, to_lamp);
+        float attenuation =
+            lamp_attenuation(distance_squared, light.intensity_radius.w, lamp_inverse_range(light));
+        float distance = sqrt(distance_squared);
+        to_lamp /= max(distance, 1.0e-6);
+        if (is_spot(light)) attenuation *= spot_cone(-dot(to_lamp, light.direction_type.xyz), light.cone_shadow.xy);
+        if (attenuation <= 0.0) continue;
+        float visible = lamp_visibility(index, light, point);
+        if (visible <= 0.0) continue;
+        sum += light.intensity_radius.rgb * exp(-to_extinction(lamp_optical_depth(point.y, to_lamp, distance))) *
+               (visible * attenuation * phase(int(volumetrics.options.x), anisotropy, dot(to_lamp, ray.direction)));
+    }
+    return sum;
+}
+#endif
+
+#if LAMPS == 2
+// The part of a ray that lies in a spot's outer cone, in metres from the point nearest to the lamp: (A u + B) >
+// cos_outer sqrt(u^2 + h^2) with A = direction . axis and B = axis . (nearest point - lamp), for an outer angle of at
+// most 90 degrees. Empty: x >= y.
+vec2 ray_in_cone(float A, float B, float h, float cos_outer) {
+    const float FAR = 1.0e9;
+    float c2 = cos_outer * cos_outer;
+    float a = A * A - c2;
+    float b = A * B;
+    float c = B * B - c2 * h * h;
+    if (abs(a) < 1.0e-5) a = a < 0.0 ? -1.0e-5 : 1.0e-5;  // parallel to the cone's side: a hair off
+    float discriminant = b * b - a * c;
+    if (discriminant <= 0.0) return a > 0.0 && A > 0.0 ? vec2(-B / A, FAR) : a > 0.0 ? vec2(-FAR, -B / A) : vec2(0.0);
+    float q = -(b + (b < 0.0 ? -1.0 : 1.0) * sqrt(discriminant));
+    vec2 roots = vec2(q / a, c / (abs(q) > 1.0e-20 ? q : 1.0e-20));
+    float lower = min(roots.x, roots.y);
+    float upper = max(roots.x, roots.y);
+    // The cone has two halves; the light is in the one where A u + B > 0.
+    if (a > 0.0) return A > 0.0 ? vec2(upper, FAR) : vec2(-FAR, lower);
+    return A * 0.5 * (lower + upper) + B > 0.0 ? vec2(lower, upper) : vec2(0.0);
+}
+
+// A segment of the ray, and its medium apart from the height media.
+struct Segment {
+    float begin;  // distances along the ray, m
+    float end;
+    float offset;  // 0..1, where visibility is sampled: the share of the inverse square gathered before it
+    float anisotropy;
+    vec3 sigma_s;
+    vec3 sigma_t;
+};
+
+// The part of the segment that a lamp reaches, and the point of that part which is nearest to the lamp.
+struct Reach {
+    float begin;
+    float end;
+    float nearest;
+};
+
+Reach lamp_reach(Ray ray, Segment segment, GpuLight light, LampRay lamp) {
+    float range = light.position_range.w;
+    float half_chord = range > 0.0 ? sqrt(max(range * range - lamp.h * lamp.h, 0.0)) : 1.0e9;
+    vec2 lit = vec2(-half_chord, half_chord);
+    if (is_spot(light)) {
+        vec3 axis = light.direction_type.xyz;
+        vec3 from_lamp = ray.origin + ray.direction * lamp.t_closest - light.position_range.xyz;
+        vec2 cone = ray_in_cone(dot(ray.direction, axis), dot(from_lamp, axis), lamp.h,
+                                -light.cone_shadow.y / light.cone_shadow.x);
+        lit = vec2(max(lit.x, cone.x), min(lit.y, cone.y));
+    }
+    Reach reach;
+    reach.begin = max(segment.begin, lamp.t_closest + lit.x);
+    reach.end = min(segment.end, lamp.t_closest + lit.y);
+    reach.nearest = clamp(lamp.t_closest, reach.begin, max(reach.begin, reach.end));
+    return reach;
+}
+
+// What the lamp scatters to the segment's front from one node of the quadrature, per candela.
+vec3 lamp_node(Ray ray, Segment segment, GpuLight light, float t, float weight) {
+    vec3 point = ray.origin + ray.direction * t;
+    vec3 from_lamp = point - light.position_range.xyz;
+    float distance = length(from_lamp);
+    from_lamp /= max(distance, 1.0e-6);
+    if (is_spot(light)) weight *= spot_cone(dot(from_lamp, light.direction_type.xyz), light.cone_shadow.xy);
+    weight *= phase(int(volumetrics.options.x), segment.anisotropy, -dot(from_lamp, ray.direction));
+    float advance = t - segment.begin;
+    vec3 depth = segment.sigma_t * advance + lamp_optical_depth(point.y, -from_lamp, distance);
+    vec3 sigma_s = segment.sigma_s;
+#if HAS_HEIGHT
+    sigma_s += height_sigma_s(point.y);
+    depth += height_optical_depth(ray.origin.y + ray.direction.y * segment.begin, ray.direction.y, advance);
+#endif
+    return sigma_s * exp(-to_extinction(depth)) * weight;
+}
+
+vec3 lamp_over_segment(Ray ray, Segment segment, uint index, GpuLight light, LampRay lamp, Reach reach) {
+    count_work(WORK_LIGHT_EVALUATIONS, 1u);
+    if (light.cone_shadow.z >= 0.0) {
+        float a = reach.begin - lamp.t_closest;
+        float h = max(lamp.h, max(light.intensity_radius.w, LAMP_MIN_RADIUS));
+        float gathered = segment.offset * inverse_square_integral(a, reach.end - lamp.t_closest, reach.end - reach.begin, h);
+        float t = min(reach.begin + inverse_square_advance(a, h, gathered), reach.end);
+        count_work(WORK_SHADOW_LOOKUPS, 1u);
+        float visible = light_visibility(index, light, ray.origin + ray.direction * t);
+        if (visible <= 0.0) return vec3(0.0);
+        light.intensity_radius.rgb *= visible;
+    }
+    LampSegment rule =
+        lamp_segment(lamp, reach.begin, reach.end, light.intensity_radius.w, lamp_inverse_range(light));
+    return light.intensity_radius.rgb * (lamp_node(ray, segment, light, rule.t.x, rule.weight.x) +
+                                         lamp_node(ray, segment, light, rule.t.y, rule.weight.y) +
+                                         lamp_node(ray, segment, light, rule.t.z, rule.weight.z) +
+                                         lamp_node(ray, segment, light, rule.t.w, rule.weight.w));
+}
+
+// Radiance that all lamps scatter to the segment's front. A segment may pass many light lists: looking up one of them
+// would lose the lamps of the others. So all are read, and a lamp is integrated over the whole segment where its
+// nearest lit point lies, which is listed if any part of the segment is lit: once, whatever lists repeat it.
+vec3 lamps_over_segment(Ray ray, Segment segment) {
+    vec3 sum = vec3(0.0);
+    float begin = segment.begin;
+    for (int slice = light_slice(begin * ray.forward_cosine); begin < segment.end; ++slice) {
+        float end = clamp(light_slice_end(slice) / ray.forward_cosine, begin, segment.end);
+        bool last = end >= segment.end;
+        ClusterRange range = lights_in_slice(ray.uv, slice);
+        for (uint i = 0u; i < range.count; ++i) {
+            uint index = light_index(range.offset + i);
+            GpuLight light = light_at(index);
+            LampRay lamp = lamp_ray(ray.origin, ray.direction, light.position_range.xyz);
+            Reach reach = lamp_reach(ray, segment, light, lamp);
+            bool here = reach.nearest >= begin && (reach.nearest < end || last);
+            if (here && reach.begin < reach.end)
+                sum += lamp_over_segment(ray, segment, index, light, lamp, reach);
+        }
+        begin = end;
+    }
+    return sum;
+}
+#endif
+
+#endif

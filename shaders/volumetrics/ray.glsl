@@ -1,0 +1,21 @@
+// The view ray of a pixel.
+#ifndef VOLUMETRICS_RAY_GLSL
+#define VOLUMETRICS_RAY_GLSL
+
+#include "shaders/lib/depth.glsl"
+#include "shaders/volumetrics/data.glsl"
+
+struct Ray {
+    vec3 origin;
+    vec3 direction;        // unit, world
+    float forward_cosine;  // with the camera's axis: view depth / distance
+    vec2 uv;               // of the pixel, 0..1, origin lower left
+};
+
+Ray view_ray(vec2 uv) {
+    vec4 p = volumetrics.inverse_projection * vec4(uv * 2.0 - 1.0, 1.0, 1.0);  // on the near plane
+    vec3 view_direction = normalize(p.xyz / p.w);
+    return Ray(volumetrics.eye.xyz, mat3(volumetrics.inverse_view) * view_direction, -view_direction.z, uv);
+}
+
+#endif
