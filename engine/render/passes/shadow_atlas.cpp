@@ -181,7 +181,6 @@ void ShadowAtlasPass::draw(const PassContext& pass, const GpuScene& gpu) {
 
     pass.bind_framebuffer();
     gl::apply(ShadowDepth::state(false));
-    gpu.bind();
     glClearDepthf(0);
     glEnable(GL_SCISSOR_TEST);  // clears reach their own tile only
     for (std::size_t i = 0; i < redraws_.size(); ++i) {

@@ -58,10 +58,6 @@ bool ShadowCasters::moving_within(glm::vec3 center, float radius) const {
     return false;
 }
 
-ShadowDepth::ShadowDepth(ShaderLibrary& shaders)
-    : shaders_(shaders),
-      sampler_({.min_filter = GL_LINEAR_MIPMAP_LINEAR, .wrap = GL_REPEAT}, "shadow_depth base colour") {}
-
 gl::DrawState ShadowDepth::state(bool depth_clamp) {
     return {
         .depth_test = true, .depth_write = true, .depth_clamp = depth_clamp, .slope_bias = -1, .constant_bias = -2};
@@ -69,7 +65,7 @@ gl::DrawState ShadowDepth::state(bool depth_clamp) {
 
 void ShadowDepth::draw(const GpuScene& gpu, const DrawList& list, int view, const glm::mat4& world_to_clip) const {
     const gl::Program* programs[2] = {};
-    glBindSampler(0, sampler_.id());
+    glBindSampler(0, 0);  // the scene's textures carry their own sampling
     list.draw(
         gpu,
         [&](int index) {
@@ -86,7 +82,6 @@ void ShadowDepth::draw(const GpuScene& gpu, const DrawList& list, int view, cons
             program->set("alpha_cutoff", material.emissive_alpha_cutoff.a);
         },
         view);
-    glBindSampler(0, 0);
 }
 
 }  // namespace tyndall

@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <span>
+#include <vector>
 
-#include "engine/gl/sampler.h"
 #include "engine/gl/state.h"
 #include "engine/render/draw_list.h"
 #include "engine/render/gpu_scene.h"
@@ -48,7 +48,7 @@ class ShadowCasters {
 /// Draws depth of shadow casters into the bound framebuffer.
 class ShadowDepth {
   public:
-    explicit ShadowDepth(ShaderLibrary& shaders);
+    explicit ShadowDepth(ShaderLibrary& shaders) : shaders_(shaders) {}
     /// Both sides of every triangle are drawn, so that open meshes cast too. Depth is moved away from the light by
     /// what it changes over one texel: half of what keeps lit surfaces free of acne, the other half is the normal
     /// offset in shaders/engine/shadow_lookup.glsl.
@@ -57,7 +57,6 @@ class ShadowDepth {
 
   private:
     ShaderLibrary& shaders_;
-    gl::Sampler sampler_;
 };
 
 }  // namespace tyndall

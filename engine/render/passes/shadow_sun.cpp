@@ -83,7 +83,6 @@ TextureRef ShadowSunPass::add_map(FrameContext& context, const ShadowCasters& ca
             glClear(GL_DEPTH_BUFFER_BIT);
             map.draws.build(gpu, volume,
                             is_static ? DrawList::Filter::static_shadow_casters : DrawList::Filter::shadow_casters);
-            gpu.bind();
             depth_.draw(gpu, map.draws, 0, world_to_clip(map.fit));
             map.drawn_key = key.value();
         });
