@@ -43,7 +43,8 @@ glm::vec4 evaluate(const Animation::Channel& channel, float time) {
     if (cubic) {
         const glm::vec4 v =
             hermite(value(left), channel.values[left * 3 + 2], channel.values[right * 3], value(right), u, span);
-        return rotation ? glm::normalize(v) : v;
+        if (!rotation) return v;
+        return glm::length(v) > 1e-6f ? glm::normalize(v) : value(left);  // tangents may take it through zero
     }
     return rotation ? slerp(value(left), value(right), u) : glm::mix(value(left), value(right), u);
 }

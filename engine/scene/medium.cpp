@@ -35,8 +35,8 @@ struct Field {
         if (!json.is_object()) fail("an object");
         for (const auto& item : json.items()) {
             if (std::find(keys.begin(), keys.end(), item.key()) == keys.end())
-                throw Error(
-                    fmt::format("{}: unknown key \"{}\"; {} expected", where, item.key(), fmt::join(keys, ", ")));
+                throw Error(fmt::format("{}: unknown key {}; {} expected", where, Json(item.key()).dump(),
+                                        fmt::join(keys, ", ")));
         }
     }
     [[nodiscard]] float number(std::string_view expected, auto valid) const {

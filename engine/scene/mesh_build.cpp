@@ -14,6 +14,11 @@ glm::vec3 orthogonal(glm::vec3 n) {
     return glm::normalize(glm::cross(n, axis));
 }
 
+glm::vec3 normalised_or_up(glm::vec3 v) {
+    const float length = glm::length(v);
+    return length > 0 && std::isfinite(length) ? v / length : glm::vec3(0, 1, 0);
+}
+
 }  // namespace
 
 std::vector<std::uint32_t> triangles_of_strip(const std::vector<std::uint32_t>& strip) {
@@ -31,16 +36,20 @@ std::vector<std::uint32_t> triangles_of_fan(const std::vector<std::uint32_t>& fa
     return triangles;
 }
 
+void normalise_normals(Mesh& mesh) {
+    for (Vertex& v : mesh.vertices) v.normal = normalised_or_up(v.normal);
+}
+
 void make_flat(Mesh& mesh) {
     std::vector<Vertex> vertices;
     vertices.reserve(mesh.indices.size());
     for (const std::uint32_t index : mesh.indices) vertices.push_back(mesh.vertices[index]);
     for (std::size_t i = 0; i + 2 < vertices.size(); i += 3) {
         const glm::vec3 a = vertices[i].position;
-        const glm::vec3 normal = glm::cross(vertices[i + 1].position - a, vertices[i + 2].position - a);
-        const float length = glm::length(normal);
+        const glm::vec3 normal =
+            normalised_or_up(glm::cross(vertices[i + 1].position - a, vertices[i + 2].position - a));
         for (std::size_t k = i; k < i + 3; ++k) {
-            vertices[k].normal = length > 0 ? normal / length : glm::vec3(0, 1, 0);
+            vertices[k].normal = normal;
             mesh.indices[k] = static_cast<std::uint32_t>(k);
         }
     }

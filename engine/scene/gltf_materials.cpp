@@ -1,0 +1,111 @@
+#include <algorithm>
+#include <atomic>
+#include <future>
+#include <thread>
+
+#include "engine/core/image.h"
+#include "engine/scene/gltf_parts.h"
+
+namespace tyndall::gltf {
+namespace {
+
+/// The scene's pictures, as materials come to name them: images that no material uses are not decoded.
+class Pictures {
+  public:
+    explicit Pictures(const GltfFile& file) : file_(file) {}
+
+    /// The index of a material's picture; -1 where it has none.
+    int index(int texture, int tex_coord, const std::string& what) {
+        if (texture < 0) return -1;
+        if (tex_coord != 0)
+            file_.skip("{}: texture coordinates {} are not supported, set 0 is used", what, tex_coord);
+        const int image = file_.at(file_.model().textures, texture, what + ": texture").source;
+        (void)file_.at(file_.model().images, image, what + ": image");
+        const auto found = std::ranges::find(images_, image);
+        if (found == images_.end()) {
+            images_.push_back(image);
+            return static_cast<int>(images_.size()) - 1;
+        }
+        return static_cast<int>(found - images_.begin());
+    }
+
+    /// Decoding is most of a level's loading time: every core takes the next picture.
+    [[nodiscard]] std::vector<Picture> decode() const {
+        std::vector<Picture> pictures(images_.size());
+        std::atomic<std::size_t> next = 0;
+        const auto work = [&] {
+            for (std::size_t i = next++; i < pictures.size(); i = next++) pictures[i] = decode(images_[i]);
+        };
+        const std::size_t cores = std::max(std::thread::hardware_concurrency(), 1u);
+        std::vector<std::future<void>> workers;
+        for (std::size_t i = 0; i < std::min(cores, pictures.size()); ++i)
+            workers.push_back(std::async(std::launch::async, work));
+        for (std::future<void>& worker : workers) worker.wait();
+        for (std::future<void>& worker : workers) worker.get();
+        return pictures;
+    }
+
+  private:
+    [[nodiscard]] Picture decode(int index) const {
+        const tinygltf::Image& from = file_.model().images[static_cast<std::size_t>(index)];
+        const std::string what =
+            one_line(fmt::format("image {} \"{}\"", index, from.name.empty() ? from.uri : from.name));
+        const std::span<const std::uint8_t> bytes =
+            from.bufferView >= 0 ? file_.view_bytes(from.bufferView, 0, what) : std::span(from.image);
+        const Image image = decode_image(bytes, file_.path().string() + ": " + what, 4);
+        Picture to{from.name, image.size, std::vector<std::uint8_t>(image.pixels.size())};
+        std::ranges::transform(image.pixels, to.rgba.begin(), [](float v) {
+            return static_cast<std::uint8_t>(std::clamp(v, 0.0f, 1.0f) * 255.0f + 0.5f);
+        });
+        return to;
+    }
+
+    const GltfFile& file_;
+    std::vector<int> images_;  ///< of each picture, the file's image
+};
+
+Material load_material(const GltfFile& file, const tinygltf::Material& from, Pictures& pictures,
+                       const std::string& what) {
+    const tinygltf::PbrMetallicRoughness& pbr = from.pbrMetallicRoughness;
+    Material to;
+    to.name = from.name;
+    to.base_color = file.vector<4>(pbr.baseColorFactor, what + ": baseColorFactor", 0);
+    to.metallic = file.number(pbr.metallicFactor, what + ": metallicFactor", 0, 1);
+    to.roughness = file.number(pbr.roughnessFactor, what + ": roughnessFactor", 0, 1);
+    to.emissive = file.vector<3>(from.emissiveFactor, what + ": emissiveFactor", 0);
+    if (const auto* strength = file.extension(from, "KHR_materials_emissive_strength", "emissiveStrength"))
+        to.emissive *= file.number(strength->GetNumberAsDouble(), what + ": emissiveStrength", 0);
+    if (!std::isfinite(glm::length(to.emissive))) file.fail("{}: emission is not finite", what);
+    to.normal_scale = file.number(from.normalTexture.scale, what + ": normal scale");
+    to.occlusion_strength = file.number(from.occlusionTexture.strength, what + ": occlusion strength", 0, 1);
+
+    const auto texture = [&](const auto& info, const char* slot) {
+        return pictures.index(info.index, info.texCoord, fmt::format("{}: {}", what, slot));
+    };
+    to.base_color_picture = texture(pbr.baseColorTexture, "baseColorTexture");
+    to.metallic_roughness_picture = texture(pbr.metallicRoughnessTexture, "metallicRoughnessTexture");
+    to.normal_picture = texture(from.normalTexture, "normalTexture");
+    to.occlusion_picture = texture(from.occlusionTexture, "occlusionTexture");
+    to.emissive_picture = texture(from.emissiveTexture, "emissiveTexture");
+
+    if (from.alphaMode != "OPAQUE" && from.alphaMode != "MASK" && from.alphaMode != "BLEND")
+        file.fail("{}: alphaMode {} given, OPAQUE, MASK or BLEND expected", what, from.alphaMode);
+    to.alpha_mask = from.alphaMode == "MASK";
+    to.alpha_blend = from.alphaMode == "BLEND";
+    to.alpha_cutoff = file.number(from.alphaCutoff, what + ": alphaCutoff", 0);
+    to.double_sided = from.doubleSided;
+    return to;
+}
+
+}  // namespace
+
+void load_materials(const GltfFile& file, Scene& scene) {
+    Pictures pictures(file);
+    for (const tinygltf::Material& from : file.model().materials) {
+        const std::string what = fmt::format("material {} \"{}\"", scene.materials.size(), from.name);
+        scene.materials.push_back(load_material(file, from, pictures, what));
+    }
+    scene.pictures = pictures.decode();
+}
+
+}  // namespace tyndall::gltf

@@ -1,0 +1,19 @@
+#pragma once
+
+#include "engine/scene/gltf_file.h"
+#include "engine/scene/scene.h"
+
+namespace tyndall::gltf {
+
+// The steps of load_gltf, in this order. Each adds its part of the file to the scene.
+
+/// Materials, and the pictures that they use.
+void load_materials(const GltfFile& file, Scene& scene);
+/// A mesh per primitive. Returns, for each mesh of the file, the indices of the scene's meshes.
+[[nodiscard]] std::vector<std::vector<int>> load_meshes(const GltfFile& file, Scene& scene);
+/// Nodes with their lights and cameras. Returns, for each node of the file, the scene's; -1 outside the scene.
+[[nodiscard]] std::vector<int> load_nodes(const GltfFile& file, const std::vector<std::vector<int>>& meshes,
+                                          Scene& scene);
+void load_animations(const GltfFile& file, const std::vector<int>& nodes, Scene& scene);
+
+}  // namespace tyndall::gltf
