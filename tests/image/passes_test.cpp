@@ -1,0 +1,168 @@
+// What a scene does not need is not done: a table of scenes and the volumetric passes each may run.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "engine/core/image.h"
+#include "support/command.h"
+#include "support/scenes.h"
+
+namespace tyndall::test {
+namespace {
+
+using nlohmann::json;
+using ::testing::UnorderedElementsAreArray;
+
+const std::string global_medium =
+    R"([{"shape":"global","scattering":[0.05,0.05,0.05],"absorption":[0,0,0],"anisotropy":0.3}])";
+const std::string local_medium =
+    R"([{"shape":"sphere","center":[0,2,0],"radius":2,"scattering":[0.5,0.5,0.5],"absorption":[0,0,0]}])";
+const std::string local_medium_behind =
+    R"([{"shape":"sphere","center":[0,2,40],"radius":2,"scattering":[0.5,0.5,0.5],"absorption":[0,0,0]}])";
+const Lamp lamp{{0, 2, 0}, 50, 6, false};
+const Lamp lamp_behind{{0, 2, 40}, 50, 6, false};
+
+struct Frame {
+    std::vector<std::string> live;
+    json stats;
+};
+
+class Passes : public ::testing::Test {
+  protected:
+    Frame draw(const SceneSpec& spec, std::vector<std::string> more = {}, const std::string& out = "out.exr") {
+        write_scene(folder_ / "scene.gltf", spec);
+        std::vector<std::string> arguments{
+            "render",  (folder_ / "scene.gltf").string(), "-o", (folder_ / out).string(), "--size", "64x36",
+            "--stats", (folder_ / "stats.json").string()};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const CommandResult result = run_tyndall(arguments);
+        EXPECT_EQ(result.exit_code, 0) << result.err;
+        Frame frame;
+        std::ifstream(folder_ / "stats.json") >> frame.stats;
+        for (const json& pass : frame.stats["passes"])
+            if (pass["live"]) frame.live.push_back(pass["name"]);
+        return frame;
+    }
+    [[nodiscard]] static std::vector<std::string> with_prefix(const Frame& frame, const std::string& prefix) {
+        std::vector<std::string> names;
+        for (const std::string& name : frame.live)
+            if (name.starts_with(prefix)) names.push_back(name);
+        return names;
+    }
+    [[nodiscard]] static bool runs(const Frame& frame, const std::string& prefix) {
+        return !with_prefix(frame, prefix).empty();
+    }
+    [[nodiscard]] Image picture(const std::string& name) const { return read_image(folder_ / name, 3); }
+    TemporaryFolder folder_;
+};
+
+const std::vector<std::string> all_but_injection{"volumetrics/march", "volumetrics/blur_horizontal",
+                                                 "volumetrics/blur_vertical", "volumetrics/composite"};
+
+TEST_F(Passes, NoMediumIsBitIdenticalToVolumetricsOff) {
+    const SceneSpec spec{.sun = true, .lamps = {lamp}};
+    const Frame with = draw(spec, {"--technique", "ray_march"}, "with.exr");
+    const Frame without = draw(spec, {"--technique", "off"}, "off.exr");
+    EXPECT_EQ(with.live, without.live);
+    EXPECT_FALSE(runs(with, "volumetrics/"));
+    EXPECT_EQ(with.stats["memory"], without.stats["memory"]);
+    EXPECT_EQ(with.stats["memory"]["volumetrics_persistent"], 0);
+    EXPECT_EQ(picture("with.exr").pixels, picture("off.exr").pixels);
+}
+
+TEST_F(Passes, SkippedPassesSayWhy) {
+    const Frame frame = draw({.sun = true});
+    bool found = false;
+    for (const json& pass : frame.stats["passes"])
+        if (pass["name"] == "volumetrics/march") {
+            found = true;
+            EXPECT_FALSE(pass["live"].get<bool>());
+            EXPECT_NE(pass["reason"].get<std::string>().find("medium"), std::string::npos);
+        }
+    EXPECT_TRUE(found);
+}
+
+TEST_F(Passes, SunOnlyNeedsNoClustersAndNoAtlas) {
+    const Frame frame = draw({.sun = true, .media = global_medium});
+    EXPECT_THAT(with_prefix(frame, "volumetrics/"), UnorderedElementsAreArray(all_but_injection));
+    EXPECT_TRUE(runs(frame, "shadow_sun"));
+    for (const char* absent : {"depth_pyramid", "light_cull", "cluster", "shadow_atlas"})
+        EXPECT_FALSE(runs(frame, absent)) << absent;
+    EXPECT_EQ(frame.stats["work"]["volumetrics/march"]["light_evaluations"], 64 * 36 * 8)
+        << "the sun, once a sample";
+}
+
+TEST_F(Passes, LampOnlyNeedsNoSunShadows) {
+    const Frame frame = draw({.lamps = {lamp}, .media = global_medium});
+    EXPECT_THAT(with_prefix(frame, "volumetrics/"), UnorderedElementsAreArray(all_but_injection));
+    EXPECT_FALSE(runs(frame, "shadow_sun"));
+    for (const char* present : {"cluster", "shadow_atlas"}) EXPECT_TRUE(runs(frame, present)) << present;
+}
+
+TEST_F(Passes, LampBehindTheCameraCostsNothing) {
+    const Frame frame = draw({.lamps = {lamp_behind}, .media = global_medium});
+    for (const char* absent : {"depth_pyramid", "light_cull", "cluster", "shadow_atlas"})
+        EXPECT_FALSE(runs(frame, absent)) << absent;
+}
+
+TEST_F(Passes, LocalMediumIsInjectedOnlyInView) {
+    EXPECT_TRUE(runs(draw({.sun = true, .media = local_medium}), "volumetrics/inject_media"));
+    EXPECT_FALSE(runs(draw({.sun = true, .media = local_medium_behind}), "volumetrics/"));
+}
+
+TEST_F(Passes, NoBlurNoBlurPasses) {
+    const Frame frame = draw({.sun = true, .media = global_medium}, {"--set", "blur=none"});
+    EXPECT_THAT(with_prefix(frame, "volumetrics/"),
+                UnorderedElementsAreArray({"volumetrics/march", "volumetrics/composite"}));
+}
+
+TEST_F(Passes, NoLightStillAbsorbs) {
+    const Frame frame = draw({.media = global_medium});
+    EXPECT_TRUE(runs(frame, "volumetrics/march"));
+    EXPECT_FALSE(runs(frame, "shadow_sun"));
+    EXPECT_EQ(frame.stats["work"]["volumetrics/march"].value("light_evaluations", 0), 0);
+    EXPECT_EQ(frame.stats["work"]["volumetrics/march"].value("shadow_lookups", 0), 0);
+}
+
+std::uint64_t march_evaluations(const Frame& frame) {
+    return frame.stats["work"]["volumetrics/march"]["light_evaluations"].get<std::uint64_t>();
+}
+
+/// Sixteen lamps in view, the others far behind the camera.
+std::vector<Lamp> lamps_of_a_big_level(int total) {
+    std::vector<Lamp> lamps;
+    for (int i = 0; i < 16; ++i)
+        lamps.push_back(
+            {{-6.0f + 0.8f * static_cast<float>(i), 1.5f, -4.0f + static_cast<float>(i % 4)}, 20, 3, false});
+    for (int i = 16; i < total; ++i)
+        lamps.push_back(
+            {{static_cast<float>(i % 64) * 7 - 224, 2, 60 + static_cast<float>(i / 64) * 7}, 20, 3, false});
+    return lamps;
+}
+
+TEST_F(Passes, MarchCostDoesNotGrowWithTheLampsOfTheLevel) {
+    const Frame few = draw({.lamps = lamps_of_a_big_level(16), .media = global_medium});
+    const Frame many = draw({.lamps = lamps_of_a_big_level(4096), .media = global_medium});
+    EXPECT_EQ(many.stats["facts"]["local_lights_in_view"], 16);
+    EXPECT_GT(march_evaluations(few), 1000u);
+    EXPECT_LT(static_cast<double>(march_evaluations(many)), 1.05 * static_cast<double>(march_evaluations(few)));
+}
+
+TEST_F(Passes, MarchCostIsLinearInStepsAndInLampsPerCluster) {
+    const SceneSpec sun{.sun = true, .media = global_medium};
+    const auto at_8 = draw(sun, {"--set", "steps=8"}), at_32 = draw(sun, {"--set", "steps=32"});
+    EXPECT_EQ(march_evaluations(at_32), 4 * march_evaluations(at_8));
+    EXPECT_EQ(at_32.stats["work"]["volumetrics/march"]["shadow_lookups"],
+              4 * at_8.stats["work"]["volumetrics/march"]["shadow_lookups"].get<std::uint64_t>());
+
+    // Lamps at one place share their clusters.
+    const SceneSpec one{.lamps = {lamp}, .media = global_medium};
+    const SceneSpec four{.lamps = {lamp, lamp, lamp, lamp}, .media = global_medium};
+    EXPECT_EQ(march_evaluations(draw(four)), 4 * march_evaluations(draw(one)));
+}
+
+}  // namespace
+}  // namespace tyndall::test
