@@ -25,7 +25,7 @@ struct FrameOptions {
     double time = 0;                ///< s
     std::uint32_t frame_index = 0;  ///< moves dither and noise patterns
     bool count_work = false;        ///< instrumented shaders; see Renderer::work
-    gl::GpuTimer* timer = nullptr;  ///< per-pass times; its results are copied to Renderer::timings
+    gl::GpuTimer* timer = nullptr;  ///< per-pass times; render() begins its frame and copies its results
     std::string layer = "color";    ///< the layer that read_layer may be asked for (layer_names)
     volumetrics::Settings volumetrics;
     RenderSettings render;

@@ -1,0 +1,63 @@
+#include "engine/render/light_set.h"
+
+#include <cmath>
+
+#include "engine/core/check.h"
+#include "shaders/lib/glm_subset.h"
+#include "shaders/shared/bindings.h"
+
+TYNDALL_GLSL_BEGIN
+#include "shaders/engine/light_reach.glsl"
+#include "shaders/lib/lamp_segment.glsl"
+TYNDALL_GLSL_END
+
+namespace tyndall {
+
+shared::GpuLight gpu_light(const Light& light, const glm::mat4& world, int first_tile) {
+    TYNDALL_CHECK(light.type != LightType::sun);
+    TYNDALL_CHECK_LT(0.0f, light.range);
+    const bool spot = light.type == LightType::spot;
+    const glm::vec2 cone =
+        spot ? glsl::spot_scale_offset(std::cos(light.inner_cone), std::cos(light.outer_cone)) : glm::vec2(0, 1);
+    return {.position_range = {glm::vec3(world[3]), light.range},
+            .intensity_radius = {light.intensity, light.radius},
+            .direction_type = {-glm::normalize(glm::vec3(world[2])),
+                               static_cast<float>(spot ? LIGHT_SPOT : LIGHT_POINT)},
+            .cone_shadow = {cone, static_cast<float>(first_tile), 0}};
+}
+
+glm::vec4 reach(const shared::GpuLight& light) {
+    const glm::vec3 position(light.position_range), axis(light.direction_type);
+    const float range = light.position_range.w;
+    if (light.direction_type.w != static_cast<float>(LIGHT_SPOT)) return {position, range};
+    return glsl::cone_reach(position, axis, range, glsl::cone_cosine(glm::vec2(light.cone_shadow)));
+}
+
+void LightSet::update(const Scene& scene, const Frustum& frustum) {
+    lights_.clear();
+    scene_index_.clear();
+    in_view_.clear();
+    for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+        const Light& light = scene.lights[i];
+        if (light.type == LightType::sun || light.node < 0 || light.intensity == glm::vec3(0)) continue;
+        lights_.push_back(gpu_light(light, scene.nodes[static_cast<std::size_t>(light.node)].world, -1));
+        scene_index_.push_back(i);
+        const glm::vec4& sphere = lights_.back().position_range;
+        if (frustum.intersects_sphere(glm::vec3(sphere), sphere.w)) in_view_.push_back(i);
+    }
+}
+
+void LightSet::set_shadow_tiles(const std::function<int(std::size_t)>& first_tile) {
+    for (std::size_t i = 0; i < lights_.size(); ++i)
+        lights_[i].cone_shadow.z = static_cast<float>(first_tile(scene_index_[i]));
+}
+
+void LightSet::upload() {
+    buffer_.assign(std::span<const shared::GpuLight>(lights_), "lights");
+}
+
+void LightSet::bind() const {
+    buffer_.bind(GL_SHADER_STORAGE_BUFFER, BINDING_LIGHTS);
+}
+
+}  // namespace tyndall

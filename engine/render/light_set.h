@@ -1,0 +1,45 @@
+#pragma once
+
+#include <functional>
+#include <glm/glm.hpp>
+#include <span>
+#include <vector>
+
+#include "engine/gl/buffer.h"
+#include "engine/scene/scene.h"
+#include "engine/scene/view.h"
+#include "shaders/shared/lights.h"
+
+namespace tyndall {
+
+/// A point or spot lamp as shaders read it. `world` is its node's; the lamp shines along -Z. `first_tile` is its
+/// first tile in the shadow atlas, -1: no shadow.
+[[nodiscard]] shared::GpuLight gpu_light(const Light& light, const glm::mat4& world, int first_tile);
+
+/// Centre (world, m) and radius of the smallest sphere around what a lamp reaches: its range, within its cone.
+[[nodiscard]] glm::vec4 reach(const shared::GpuLight& light);
+
+/// All point and spot lamps of a scene that shine, in its order.
+class LightSet {
+  public:
+    /// Reads the scene's lamps where its nodes stand now, without shadow tiles.
+    void update(const Scene& scene, const Frustum& frustum);
+    /// `first_tile(scene light)` as ShadowAtlasPass gives it.
+    void set_shadow_tiles(const std::function<int(std::size_t)>& first_tile);
+    /// Sends the lamps to the GPU.
+    void upload();
+    void bind() const;  ///< at BINDING_LIGHTS
+
+    [[nodiscard]] std::span<const shared::GpuLight> lights() const { return lights_; }
+    /// Scene indices of the lamps whose sphere of influence meets the frustum.
+    [[nodiscard]] std::span<const std::size_t> in_view() const { return in_view_; }
+    [[nodiscard]] GLuint buffer() const { return buffer_.id(); }
+
+  private:
+    std::vector<shared::GpuLight> lights_;
+    std::vector<std::size_t> scene_index_;  ///< of each of lights_
+    std::vector<std::size_t> in_view_;
+    gl::Buffer buffer_;
+};
+
+}  // namespace tyndall

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "engine/render/frame_context.h"
+#include "engine/render/passes/gbuffer.h"
+
+namespace tyndall {
+
+/// What surfaces and media are lit by, made by the passes before.
+struct LightSources {
+    TextureRef sky;  ///< radiance cube; empty: no sky
+    std::vector<TextureRef>
+        textures;                    ///< shadow maps and the ambient cube: what shadow_lookup and light_data sample
+    std::vector<BufferRef> buffers;  ///< and read
+    std::function<void()> bind;      ///< binds those and the frame block
+    bool medium_transmittance = false;  ///< the global medium dims light on its way to surfaces
+};
+
+/// Adds the pass "lighting": the radiance of all surfaces in the G-buffer, black where there is none. Returns the
+/// new version of `color` (RGBA16F).
+[[nodiscard]] TextureRef add_lighting(FrameContext& frame, const GBuffer& gbuffer, const LightSources& sources,
+                                      TextureRef color);
+
+}  // namespace tyndall

@@ -1,0 +1,65 @@
+#include "engine/render/volumetrics_adapter.h"
+
+namespace tyndall {
+namespace {
+
+volumetrics::GlobalMedium global_medium(const Medium& m) {
+    return {.sigma_s = m.sigma_s,
+            .sigma_a = m.sigma_a,
+            .anisotropy = m.anisotropy,
+            .emission = m.emission,
+            .height = m.height_profile,
+            .base = m.base,
+            .falloff = m.falloff};
+}
+
+volumetrics::LocalMedium local_medium(const Medium& m) {
+    const bool box = m.shape == Medium::Shape::box;
+    return {.box = box,
+            .center = m.center,
+            .half_extent = box ? m.size * 0.5f : m.radii,
+            .rotation = m.rotation,
+            .softness = m.softness,
+            .sigma_s = m.sigma_s,
+            .sigma_a = m.sigma_a,
+            .anisotropy = m.anisotropy,
+            .emission = m.emission,
+            .noise_scale = m.noise_scale,
+            .noise_amount = m.noise_amount,
+            .noise_seed = m.noise_seed,
+            .height = m.height_profile,
+            .base = m.base,
+            .falloff = m.falloff};
+}
+
+}  // namespace
+
+volumetrics::Inputs volumetrics_inputs(const FrameContext& frame) {
+    volumetrics::Inputs inputs;
+    inputs.view = frame.view.view;
+    inputs.projection = frame.view.projection;
+    inputs.eye = frame.view.eye;
+    inputs.znear = frame.view.znear;
+    inputs.size = frame.size;
+    for (const Medium& medium : frame.scene.media) {
+        const bool global = medium.shape == Medium::Shape::global || medium.shape == Medium::Shape::height;
+        if (global && frame.facts.has_global_medium) inputs.global.push_back(global_medium(medium));
+        if (!global && frame.facts.has_local_media) inputs.local.push_back(local_medium(medium));
+    }
+    inputs.has_sun = frame.facts.has_sun;
+    inputs.has_lamps = frame.facts.local_lights_in_view > 0;
+    inputs.has_ambient = frame.facts.has_ambient;
+    inputs.frame_index = frame.frame_index;
+    inputs.time = frame.time;
+    inputs.count_work = frame.count_work;
+    return inputs;
+}
+
+void add_lighting_inputs(volumetrics::Inputs& inputs, const LightSources& sources, TextureRef depth) {
+    inputs.depth = depth;
+    inputs.light_textures = sources.textures;
+    inputs.light_buffers = sources.buffers;
+    inputs.bind_lighting = sources.bind;
+}
+
+}  // namespace tyndall

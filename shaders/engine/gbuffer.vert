@@ -1,0 +1,27 @@
+#extension GL_ARB_shader_draw_parameters : require
+#include "shaders/engine/frame_block.glsl"
+
+layout(std430, binding = BINDING_INSTANCES) readonly buffer InstanceBuffer { mat4 models[]; };
+layout(std430, binding = BINDING_VISIBLE_INSTANCES) readonly buffer VisibleBuffer { uint visible_instances[]; };
+
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec3 normal;
+layout(location = 2) in vec4 tangent;
+layout(location = 3) in vec2 texcoord;
+
+layout(location = 0) out vec3 world_normal;
+layout(location = 1) out vec4 world_tangent;
+layout(location = 2) out vec2 uv;
+layout(location = 3) flat out float handedness;  // -1 where the model matrix mirrors
+
+void main() {
+    mat4 model = models[visible_instances[gl_BaseInstanceARB + gl_InstanceID]];
+    mat3 m = mat3(model);
+    // The cofactor matrix is det(m) times the inverse transpose: it carries normals, and exists for any scale.
+    mat3 cofactor = mat3(cross(m[1], m[2]), cross(m[2], m[0]), cross(m[0], m[1]));
+    handedness = dot(m[0], cofactor[0]) < 0.0 ? -1.0 : 1.0;
+    world_normal = handedness * (cofactor * normal);
+    world_tangent = vec4(m * tangent.xyz, handedness * tangent.w);
+    uv = texcoord;
+    gl_Position = frame.view_projection * (model * vec4(position, 1.0));
+}

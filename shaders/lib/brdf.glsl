@@ -1,0 +1,68 @@
+#ifndef TYNDALL_LIB_BRDF
+#define TYNDALL_LIB_BRDF
+
+// The metallic-roughness BRDF of glTF 2.0, appendix B. n is the surface normal, v points to the eye, l to the light,
+// h is half way between l and v; all unit and all pointing away from the surface. Values in 1/sr.
+
+const float BRDF_PI = 3.14159265358979f;
+
+// Smaller perceptual roughnesses are taken as this: a mirror would show a point light as nothing or as infinity.
+const float BRDF_MIN_ROUGHNESS = 0.045f;
+
+// Reflectance at normal incidence of a dielectric with index of refraction 1.5.
+const float BRDF_DIELECTRIC_F0 = 0.04f;
+
+float brdf_alpha(float roughness) {
+    float r = clamp(roughness, BRDF_MIN_ROUGHNESS, 1.0f);
+    return r * r;
+}
+
+// Schlick 1994: F0 at v = h, 1 at grazing incidence.
+vec3 fresnel_schlick(vec3 f0, float v_dot_h) {
+    float m = clamp(1.0f - v_dot_h, 0.0f, 1.0f);
+    float m2 = m * m;
+    return f0 + (vec3(1.0f) - f0) * (m2 * m2 * m);
+}
+
+// Trowbridge and Reitz 1975 (GGX): the distribution of microfacet normals, int D (n.h) dh = 1.
+// n_dot_h^2 (alpha^2 - 1) + 1 is written as alpha^2 c^2 + (1 - c^2), whose second term does not lose the peak's width.
+float distribution_ggx(float n_dot_h, float alpha) {
+    float c2 = n_dot_h * n_dot_h;
+    float d = alpha * alpha * c2 + max(1.0f - c2, 0.0f);
+    return alpha * alpha / (BRDF_PI * d * d);
+}
+
+// Height-correlated Smith masking and shadowing over 4 (n.l) (n.v) (Heitz 2014, eq. 99); 1/4 for a mirror seen head-on.
+float visibility_smith(float n_dot_l, float n_dot_v, float alpha) {
+    float a2 = alpha * alpha;
+    float masking = n_dot_l * sqrt(n_dot_v * n_dot_v * (1.0f - a2) + a2);
+    float shadowing = n_dot_v * sqrt(n_dot_l * n_dot_l * (1.0f - a2) + a2);
+    return 0.5f / max(masking + shadowing, 1.0e-7f);
+}
+
+// f(l, v) [1/sr], without the cosine: reflected radiance = f * (n.l) * illuminance. 0 below the horizon of l; for v
+// the horizon itself is taken, since interpolated normals may turn away from the eye.
+vec3 brdf_metallic_roughness(vec3 base_color, float metallic, float roughness, vec3 n, vec3 v, vec3 l) {
+    float n_dot_l = dot(n, l);
+    if (n_dot_l <= 0.0f) {
+        return vec3(0.0f);
+    }
+    vec3 h = normalize(l + v);
+    float alpha = brdf_alpha(roughness);
+    float n_dot_v = max(dot(n, v), 1.0e-4f);
+    vec3 f0 = mix(vec3(BRDF_DIELECTRIC_F0), base_color, metallic);
+    vec3 fresnel = fresnel_schlick(f0, dot(v, h));
+    vec3 diffuse = (1.0f - fresnel) * base_color * ((1.0f - metallic) / BRDF_PI);
+    float specular = distribution_ggx(clamp(dot(n, h), 0.0f, 1.0f), alpha) * visibility_smith(n_dot_l, n_dot_v, alpha);
+    return diffuse + fresnel * specular;
+}
+
+// Directional albedo of the specular lobe, int f_specular (n.l) dl, as scale.x * f0 + scale.y: the analytic fit of the
+// split sum by Karis 2014 ("Physically Based Shading on Mobile"). Within about 0.04 of the integral.
+vec2 specular_albedo_scale(float roughness, float n_dot_v) {
+    vec4 r = roughness * vec4(-1.0f, -0.0275f, -0.572f, 0.022f) + vec4(1.0f, 0.0425f, 1.04f, -0.04f);
+    float a = min(r.x * r.x, exp2(-9.28f * n_dot_v)) * r.x + r.y;
+    return vec2(-1.04f * a + r.z, 1.04f * a + r.w);
+}
+
+#endif
