@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <map>
@@ -18,9 +19,9 @@ PassList chain(int length, const std::function<gl::TextureDesc(int)>& desc) {
     PassList list;
     TextureRef previous;
     for (int i = 0; i < length; ++i) {
-        TextureRef out = list.create("t" + std::to_string(i), desc(i));
+        TextureRef out = list.create(fmt::format("t{}", i), desc(i));
         list.add(
-            "p" + std::to_string(i),
+            fmt::format("p{}", i),
             [&](PassBuilder& b) {
                 b.sample(previous);
                 out = b.attach_color(out);
@@ -43,7 +44,7 @@ TEST(Slots, AChainNeedsTwoTextures) {
     const PassList list = chain(6, [](int) { return square(8); });
     const auto textures = by_name(list);
     for (int i = 0; i < 6; ++i) {
-        const auto& info = textures.at("t" + std::to_string(i));
+        const auto& info = textures.at(fmt::format("t{}", i));
         EXPECT_EQ(info.slot, i % 2) << i;
         EXPECT_EQ(info.first_pass, i);
         EXPECT_EQ(info.last_pass, std::min(i + 1, 5));
