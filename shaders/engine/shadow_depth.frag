@@ -1,5 +1,4 @@
 // Nothing but depth; alpha-masked materials have holes.
-#version 450
 
 #if ALPHA_MASK
 in vec2 surface_uv;

@@ -1,5 +1,4 @@
 // Depth of shadow casters. world_to_clip is a sun map's or a lamp tile's.
-#version 450
 #extension GL_ARB_shader_draw_parameters : require
 #include "shaders/shared/bindings.h"
 

@@ -168,7 +168,7 @@ void ShadowAtlasPass::find_redraws(const FrameContext& context, std::span<const 
             key.add(data.world_to_clip);
             key.add(data.rect);
             key.add(occluders.static_key());
-            if (near_moving) key.add(occluders.moving_key(Frustum::from(data.world_to_clip)));
+            key.add(near_moving ? occluders.moving_key(Frustum::from(data.world_to_clip)) : ShadowKey().value());
             if (key.value() != light.tiles[face].drawn_key) redraws_.push_back({i, face, key.value(), data});
         }
     }
