@@ -16,7 +16,7 @@ class Pictures {
 
     /// The index of a material's picture; -1 where it has none.
     int index(int texture, int tex_coord, const std::string& what) {
-        if (texture < 0) return -1;
+        if (texture == -1) return -1;
         if (tex_coord != 0)
             file_.skip("{}: texture coordinates {} are not supported, set 0 is used", what, tex_coord);
         const int image = file_.at(file_.model().textures, texture, what + ": texture").source;

@@ -7,7 +7,7 @@ namespace {
 /// A primitive without a material has glTF's default one, behind those of the file.
 int material(const GltfFile& file, int index, Scene& scene, const std::string& what) {
     const std::size_t in_file = file.model().materials.size();
-    if (index >= 0) {
+    if (index != -1) {
         (void)file.at(file.model().materials, index, what + ": material");
         return index;
     }
@@ -18,7 +18,7 @@ int material(const GltfFile& file, int index, Scene& scene, const std::string& w
 std::vector<std::uint32_t> load_indices(const GltfFile& file, const tinygltf::Primitive& from,
                                         std::size_t vertex_count, const std::string& what) {
     std::vector<std::uint32_t> indices;
-    if (from.indices < 0) {
+    if (from.indices == -1) {
         for (std::uint32_t i = 0; i < vertex_count; ++i) indices.push_back(i);
     } else {
         const auto& accessor = file.at(file.model().accessors, from.indices, what + ": accessor");
@@ -42,33 +42,29 @@ std::vector<std::uint32_t> load_indices(const GltfFile& file, const tinygltf::Pr
 Mesh load_primitive(const GltfFile& file, const tinygltf::Primitive& from, Scene& scene, const std::string& what) {
     if (from.extensions.contains("KHR_draco_mesh_compression"))
         file.fail("{}: Draco compression is not supported", what);
-    const auto attribute = [&](const char* name) {
-        const auto found = from.attributes.find(name);
-        return found == from.attributes.end() ? -1 : found->second;
-    };
     Mesh mesh;
     const auto fill = [&]<int n>(const char* name, glm::vec<n, float> Vertex::*member) {
-        const auto vectors = file.read_vectors<n>(attribute(name), what + " " + name);
+        const auto vectors = file.read_vectors<n>(from.attributes.at(name), what + " " + name);
         if (mesh.vertices.empty()) mesh.vertices.resize(vectors.size(), Vertex{{}, {}, {}, {}});
         if (vectors.size() != mesh.vertices.size())
             file.fail("{}: {} has {} elements, POSITION has {}", what, name, vectors.size(), mesh.vertices.size());
         for (std::size_t i = 0; i < vectors.size(); ++i) mesh.vertices[i].*member = vectors[i];
     };
-    if (attribute("POSITION") < 0) file.fail("{}: has no POSITION", what);
+    if (!from.attributes.contains("POSITION")) file.fail("{}: has no POSITION", what);
 
     mesh.material = material(file, from.material, scene, what);
     fill("POSITION", &Vertex::position);
     for (const Vertex& v : mesh.vertices) mesh.bounds.add(v.position);
     mesh.indices = load_indices(file, from, mesh.vertices.size(), what);
-    if (attribute("TEXCOORD_0") >= 0) fill("TEXCOORD_0", &Vertex::uv);
-    const bool has_normals = attribute("NORMAL") >= 0;
+    if (from.attributes.contains("TEXCOORD_0")) fill("TEXCOORD_0", &Vertex::uv);
+    const bool has_normals = from.attributes.contains("NORMAL");
     if (has_normals) {
         fill("NORMAL", &Vertex::normal);
         normalise_normals(mesh);
     } else {
         make_flat(mesh);
     }
-    if (has_normals && attribute("TANGENT") >= 0) {  // glTF: without normals, tangents are ignored
+    if (has_normals && from.attributes.contains("TANGENT")) {  // glTF: without normals, tangents are ignored
         fill("TANGENT", &Vertex::tangent);
     } else if (scene.materials[static_cast<std::size_t>(mesh.material)].normal_picture >= 0) {
         compute_tangents(mesh);

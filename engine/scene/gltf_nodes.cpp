@@ -161,11 +161,11 @@ void load_node(const GltfFile& file, const tinygltf::Node& from, int parent,
     const Json extra = file.extras(from);
     if (extra.contains("cast_shadow"))
         node.cast_shadow = file.boolean(extra["cast_shadow"], what + ": extras.cast_shadow");
-    if (from.skin >= 0) file.skip("{}: skins are not supported, drawn in its rest pose", what);
-    if (from.camera >= 0) node.camera = load_camera(file, from, id, scene, what);
+    if (from.skin != -1) file.skip("{}: skins are not supported, drawn in its rest pose", what);
+    if (from.camera != -1) node.camera = load_camera(file, from, id, scene, what);
     if (const auto* light = file.extension(from, "KHR_lights_punctual", "light"))
         node.light = load_light(file, light->GetNumberAsInt(), id, scene, what);
-    if (from.mesh >= 0) node.meshes = file.at(meshes, from.mesh, what + ": mesh");
+    if (from.mesh != -1) node.meshes = file.at(meshes, from.mesh, what + ": mesh");
     scene.nodes.push_back(node);
     if (from.extensions.contains("EXT_mesh_gpu_instancing")) load_instances(file, from, scene, what);
 }
