@@ -181,7 +181,8 @@ void Renderer::Impl::add_passes(FrameContext& frame, LightSources& sources, cons
 /// A pass that runs last and remembers the texture: nothing later takes its memory.
 void Renderer::Impl::export_layer(TextureRef ref) {
     layer_texture = {};
-    if (!ref) return;
+    if (layer == "color") layer_texture = color;
+    if (!ref || layer_texture) return;
     passes.add(
         "export/" + layer,
         [&](PassBuilder& pass) {

@@ -13,6 +13,9 @@ const float TONEMAP_SLOPE = 1.42f;
 const float TONEMAP_INSET = 0.14f;
 const float TONEMAP_OUTSET = 0.10f;
 
+// How far hue is held: at 0 each channel goes its own way and fire turns yellow, at 1 it stays the red it was.
+const float TONEMAP_KEEP_HUE = 0.7f;
+
 // Naka and Rushton 1966, the response of a photoreceptor: y = x^n / (x^n + s^n), a sigmoid in log exposure with a toe,
 // a straight part and a shoulder that ends at 1. s follows from TONEMAP_GREY -> TONEMAP_GREY_SHOWN.
 float tonemap_curve(float x) {
@@ -22,12 +25,19 @@ float tonemap_curve(float x) {
 }
 
 // The curve per channel, inside slightly narrower primaries (the idea of Sobotka's AgX): every channel gets a share of
-// the others, so that a saturated lamp turns paler as it gets brighter and keeps its hue, instead of clipping
-// channel by channel to yellow, magenta or cyan. Grey stays grey.
+// the others, so that a saturated lamp turns paler as it gets brighter instead of clipping. A curve per channel also
+// bends hue; the affine map that takes the least and the greatest channel where the curve takes them leaves the
+// third at its place between them, which is its hue in HSV. Grey stays grey.
 vec3 tonemap(vec3 exposed) {
     vec3 c = max(exposed, vec3(0.0f));
     vec3 inset = mix(c, vec3((c.x + c.y + c.z) / 3.0f), TONEMAP_INSET);
     vec3 shown = vec3(tonemap_curve(inset.x), tonemap_curve(inset.y), tonemap_curve(inset.z));
+    float lo = min(min(inset.x, inset.y), inset.z);
+    float hi = max(max(inset.x, inset.y), inset.z);
+    float lo_shown = min(min(shown.x, shown.y), shown.z);
+    float hi_shown = max(max(shown.x, shown.y), shown.z);
+    vec3 same_hue = vec3(lo_shown) + (inset - vec3(lo)) * ((hi_shown - lo_shown) / max(hi - lo, 1.0e-6f));
+    shown = mix(shown, same_hue, TONEMAP_KEEP_HUE);
     vec3 mean = vec3((shown.x + shown.y + shown.z) / 3.0f);
     return clamp(mean + (shown - mean) / (1.0f - TONEMAP_OUTSET), vec3(0.0f), vec3(1.0f));
 }
