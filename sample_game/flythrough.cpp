@@ -127,7 +127,7 @@ void fly_through(Session& session, const FlythroughOptions& options) {
             frame.place = place_at(path, frame.time);
             animate(session.scene, frame.time);
             session.draw(path_view(session, path, frame.time), frame.time);
-            for (const gl::GpuTimer::Scope& scope : session.renderer->timings())
+            for (const gl::GpuTimer::Scope& scope : session.timer->wait())
                 frame.pass_ms[scope.name] = scope.gpu_ms;
             frames.push_back(std::move(frame));
         }

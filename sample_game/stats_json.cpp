@@ -18,7 +18,7 @@ json stats_json(Session& session) {
         passes.push_back(std::move(pass));
     }
     json times = json::object();
-    for (const gl::GpuTimer::Scope& scope : renderer.timings())
+    for (const gl::GpuTimer::Scope& scope : session.timer->wait())
         times[scope.name] = {{"gpu_ms", scope.gpu_ms}, {"cpu_ms", scope.cpu_ms}};
     json work = json::object();
     if (session.options.count_work)

@@ -75,6 +75,13 @@ void GpuTimer::begin_frame() {
     frames_[current_].mode = mode_;
 }
 
+const std::vector<GpuTimer::Scope>& GpuTimer::wait() {
+    Frame& frame = frames_[current_];
+    TYNDALL_CHECK(!frame.open);
+    frame.resolve();
+    return results_ = std::exchange(frame.scopes, {});
+}
+
 void GpuTimer::begin(const std::string& name) {
     Frame& frame = frames_[current_];
     if (frame.mode == TimerMode::off) return;

@@ -31,6 +31,8 @@ class GpuTimer {
     void begin_frame();
     void begin(const std::string& name);  ///< scopes do not nest
     void end();
+    /// Waits for the frame just drawn and makes its times the results: for measurements, not for a game.
+    const std::vector<Scope>& wait();
     /// Times of the last frame whose results have arrived, in the order of the scopes.
     [[nodiscard]] const std::vector<Scope>& results() const { return results_; }
 
