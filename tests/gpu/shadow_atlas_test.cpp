@@ -148,7 +148,8 @@ TEST_F(ShadowAtlas, LitWallsHaveNeitherAcneNorSeams) {
             points.push_back({p, 0, normal, 0});
         }
         const std::vector<float> values = rig.look_up(Lookup::light_surface, points);
-        // Within half a texel of a room's edge the filter meets the other wall, which is a little nearer to the lamp.
+        // Within half a texel of a room's edge the filter meets the other wall, which is a little nearer to the
+        // lamp.
         const float texel = 2.0f * 5.3f / static_cast<float>(size - 4);
         for (std::size_t i = 0; i < points.size(); ++i) {
             const glm::vec3 room_for =

@@ -91,7 +91,7 @@ TextureRef ShadowSunPass::add_map(FrameContext& context, const ShadowCasters& ca
 
 ShadowSunPass::Output ShadowSunPass::add(FrameContext& context) {
     const auto sun = context.scene.sun();
-    const bool casts = sun && context.scene.lights[*sun].shadow;
+    const bool casts = sun && context.scene.lights[*sun].shadow && context.scene.lights[*sun].node >= 0;
     if (!context.facts.has_sun || !sun || !casts || !context.settings.shadows) {
         release(context, !context.settings.shadows        ? "shadows are off"
                          : !context.facts.has_sun || !sun ? "no sun in the scene"
