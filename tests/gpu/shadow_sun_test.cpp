@@ -252,6 +252,19 @@ TEST_F(ShadowSun, NothingRunsWithoutASunOrWithShadowsOff) {
     EXPECT_EQ(off.ran_with_prefix("shadow_sun"), SUN_CASCADES + 1);
 }
 
+TEST_F(ShadowSun, ASunThatCastsNoShadowLightsEverything) {
+    ShadowRig rig(with_sun(court, {0, -1, 0}));
+    const Point in_a_box{{0, 1, 0}, 8};
+    rig.frame();
+    EXPECT_EQ(rig.look_up(Lookup::sun_volume, std::span(&in_a_box, 1))[0], 0);
+    rig.scene.lights[0].shadow = false;
+    rig.frame();
+    EXPECT_EQ(rig.skip_reason("shadow_sun/static"), "the sun casts no shadow");
+    EXPECT_EQ(rig.look_up(Lookup::sun_volume, std::span(&in_a_box, 1))[0], 1);
+    EXPECT_EQ(rig.look_up(Lookup::sun_surface, std::span(&in_a_box, 1))[0], 1);
+    EXPECT_EQ(rig.counted(Lookup::sun_surface, std::span(&in_a_box, 1)), 0u);
+}
+
 TEST_F(ShadowSun, MaskedMaterialsHaveHoles) {
     const std::vector<TestBox> boxes{ground, {{-2, 2, -2}, {2, 2.01f, 2}}};
     Scene scene = with_sun(boxes, {0, -1, 0});

@@ -32,6 +32,10 @@ void ShadowSunPass::release(FrameContext& context, const std::string& reason) {
         maps_[i] = {};
         context.passes.skip(pass_name(i), reason);
     }
+    // Every point lies behind the cascades and outside the static map: lit, without a fetch.
+    context.frame.sun_cascade_far = glm::vec4(0);
+    context.frame.sun_static = glm::mat4(0);
+    context.frame.sun_static[3] = glm::vec4(-1, -1, 0, 1);
 }
 
 void ShadowSunPass::resize(const RenderSettings& settings) {

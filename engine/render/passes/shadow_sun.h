@@ -25,7 +25,7 @@ class ShadowSunPass {
     };
     /// Adds "shadow_sun/cascade_0" … "_3" and "shadow_sun/static" (or skips them with the reason) and fills
     /// frame.sun_cascade, sun_static, sun_cascade_far, sun_texel and sun_static_texel. Without a sun, or with
-    /// settings.shadows off, the textures are freed.
+    /// settings.shadows off, the textures are freed and lookups return 1.
     Output add(FrameContext& context);
     /// Binds textures and compare samplers at UNIT_SUN_CASCADES and UNIT_SUN_STATIC, for shadow_lookup.glsl.
     void bind() const;
