@@ -73,7 +73,7 @@ Session::Session(const DrawOptions& o, bool window) : size(o.pixels()) {
     shaders = std::make_unique<ShaderLibrary>(data_root());
     timer = std::make_unique<gl::GpuTimer>(gl::TimerMode::off);
     renderer = std::make_unique<Renderer>(*shaders);
-    renderer->prepare(scene);
+    renderer->prepare(scene, context->capabilities().software ? 1.0f : 4.0f);
     options.timer = timer.get();
 }
 

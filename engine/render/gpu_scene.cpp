@@ -18,14 +18,13 @@ gl::Texture one_texel(std::array<std::uint8_t, 4> rgba, const std::string& label
     return texture;
 }
 
-void set_sampling(GLuint texture) {
-    constexpr float wanted_anisotropy = 4;
+void set_sampling(GLuint texture, float anisotropy) {
     for (const GLenum axis : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T}) glTextureParameteri(texture, axis, GL_REPEAT);
     glTextureParameteri(texture, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
     if (GLAD_GL_EXT_texture_filter_anisotropic == 0) return;
     float most = 1;
     glGetFloatv(GL_MAX_TEXTURE_MAX_ANISOTROPY_EXT, &most);
-    glTextureParameterf(texture, GL_TEXTURE_MAX_ANISOTROPY_EXT, std::min(most, wanted_anisotropy));
+    glTextureParameterf(texture, GL_TEXTURE_MAX_ANISOTROPY_EXT, std::min(most, anisotropy));
 }
 
 /// Gives every mip level of a cut-out the coverage of the full picture. sRGB texels are read and written as stored.
@@ -45,8 +44,9 @@ void preserve_coverage(gl::Texture& texture, const Picture& picture, float cutof
 
 }  // namespace
 
-GpuScene::GpuScene(const Scene& scene)
-    : white_(one_texel({255, 255, 255, 255}, "neutral white")),
+GpuScene::GpuScene(const Scene& scene, float anisotropy)
+    : anisotropy_(anisotropy),
+      white_(one_texel({255, 255, 255, 255}, "neutral white")),
       flat_normal_(one_texel({128, 128, 255, 255}, "neutral normal")) {
     upload_meshes(scene);
     upload_materials(scene);
@@ -86,7 +86,7 @@ GLuint GpuScene::texture(const Scene& scene, int picture_index, bool srgb, float
         texture.upload(0, GL_RGBA, GL_UNSIGNED_BYTE, picture.rgba.data());
         texture.generate_mipmaps();
         if (coverage_cutoff > 0) preserve_coverage(texture, picture, coverage_cutoff);
-        set_sampling(texture.id());
+        set_sampling(texture.id(), anisotropy_);
     }
     return texture.id();
 }

@@ -29,7 +29,8 @@ struct Instance {
 class GpuScene {
   public:
     /// Throws Error for a picture larger than the driver's limit.
-    explicit GpuScene(const Scene& scene);
+    /// `anisotropy` of the material textures' filter, 1 to the driver's limit.
+    explicit GpuScene(const Scene& scene, float anisotropy = 4);
     /// Uploads the transforms of dynamic instances and refreshes their bounds.
     void update(const Scene& scene);
 
@@ -61,6 +62,7 @@ class GpuScene {
     void upload_materials(const Scene& scene);
     void place_instances(const Scene& scene);
 
+    float anisotropy_;
     std::vector<Instance> instances_;
     std::vector<int> dynamic_;  ///< indices into instances_, ascending
     std::vector<glm::mat4> models_;

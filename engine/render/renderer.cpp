@@ -207,8 +207,8 @@ void Renderer::Impl::execute(const shared::FrameData& frame, const FrameOptions&
 Renderer::Renderer(ShaderLibrary& shaders) : impl_(std::make_unique<Impl>(shaders)) {}
 Renderer::~Renderer() = default;
 
-void Renderer::prepare(const Scene& scene) {
-    impl_->scene = std::make_unique<GpuScene>(scene);
+void Renderer::prepare(const Scene& scene, float anisotropy) {
+    impl_->scene = std::make_unique<GpuScene>(scene, anisotropy);
 }
 
 void Renderer::render(const Scene& scene, const View& view, glm::ivec2 size, const FrameOptions& options) {
