@@ -30,8 +30,8 @@ layout(location = 0) out vec4 out_scattering;
 layout(location = 1) out vec4 out_transmittance;
 #endif
 
-// Behind less than this, nothing is added: it would not show in a half float beside what lies before it.
-const float OPAQUE = 1.0e-6;
+// Half of the smallest half-float number: a transmittance of this is stored as 0, and nothing behind it shows.
+const float OPAQUE = 2.98e-8;
 
 struct March {
     vec3 radiance;

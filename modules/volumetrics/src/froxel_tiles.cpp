@@ -14,8 +14,8 @@ namespace {
 
 /// View depths in x (nearest) and y (farthest) of the corners, and their bounds on the screen (0..1).
 struct ViewBounds {
-    float nearest = std::numeric_limits<float>::max(), farthest = 0;
-    glm::vec2 lower{1}, upper{0};
+    float nearest = std::numeric_limits<float>::max(), farthest = std::numeric_limits<float>::lowest();
+    glm::vec2 lower{std::numeric_limits<float>::max()}, upper{std::numeric_limits<float>::lowest()};
 };
 
 ViewBounds view_bounds(const LocalMedium& medium, const Inputs& inputs) {

@@ -2,8 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
-#include <glm/gtc/matrix_access.hpp>
+#include <glm/gtc/matrix_transform.hpp>
 
 #include "engine/core/error.h"
 #include "froxel_tiles.h"
@@ -23,8 +24,10 @@ template <class M>
 bool does_nothing(const M& medium) {
     return is_zero(medium.sigma_s) && is_zero(medium.sigma_a) && is_zero(medium.emission);
 }
+/// Beyond the rounding of sigma_s + sigma_a.
 bool is_coloured(glm::vec3 sigma_t) {
-    return sigma_t.r != sigma_t.g || sigma_t.g != sigma_t.b;
+    const float most = std::max({sigma_t.r, sigma_t.g, sigma_t.b});
+    return most - std::min({sigma_t.r, sigma_t.g, sigma_t.b}) > 1e-5F * most;
 }
 float mean(glm::vec3 v) {
     return (v.r + v.g + v.b) / 3;

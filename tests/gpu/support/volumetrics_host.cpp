@@ -1,0 +1,221 @@
+#include "tests/gpu/support/volumetrics_host.h"
+
+#include <glad/gl.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+#include <numbers>
+
+#include "engine/core/files.h"
+#include "engine/gl/readback.h"
+#include "shaders/shared/bindings.h"
+
+namespace tyndall::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* lights_glsl = R"(
+#include "shaders/shared/bindings.h"
+#include "shaders/shared/lights.h"
+layout(std140, binding = BINDING_FRAME) uniform StubBlock {
+    vec4 stub_sun_direction;
+    vec4 stub_sun_illuminance;
+    vec4 stub_ambient;
+    vec4 stub_options;  // x slices, y thickness, z shadows
+};
+layout(std430, binding = BINDING_LIGHTS) readonly buffer StubLights { GpuLight stub_lights[]; };
+layout(std430, binding = BINDING_CLUSTERS) readonly buffer StubRanges { ClusterRange stub_ranges[]; };
+layout(std430, binding = BINDING_CLUSTER_LIGHTS) readonly buffer StubList { uint stub_list[]; };
+vec3 sun_direction() { return stub_sun_direction.xyz; }
+vec3 sun_illuminance() { return stub_sun_illuminance.rgb; }
+vec3 ambient_radiance() { return stub_ambient.rgb; }
+int light_slice(float view_depth) { return int(min(view_depth / stub_options.y, stub_options.x - 0.5)); }
+float light_slice_end(int slice) {
+    return slice + 1 >= int(stub_options.x) ? 1.0e9 : stub_options.y * float(slice + 1);
+}
+ClusterRange lights_in_slice(vec2 uv, int slice) { return stub_ranges[slice]; }
+ClusterRange lights_near(vec2 uv, float view_depth) { return lights_in_slice(uv, light_slice(view_depth)); }
+uint light_index(uint i) { return stub_list[i]; }
+GpuLight light_at(uint index) { return stub_lights[index]; }
+)";
+
+constexpr const char* shadows_glsl = R"(
+#include "shaders/interface/lights.glsl"
+float sun_visibility(vec3 world, float view_depth) {
+    if (stub_options.z == 0.0 || world.y > 4.0) return 1.0;
+    vec3 d = stub_sun_direction.xyz;
+    float x = world.x - d.x / d.y * (world.y - 4.0);
+    float z = world.z - d.z / d.y * (world.y - 4.0);
+    return fract(0.37 * x + 0.21 * z) < 0.6 ? 1.0 : 0.0;
+}
+float light_visibility(uint index, GpuLight light, vec3 world) {
+    if (stub_options.z == 0.0) return 1.0;
+    vec3 v = world - light.position_range.xyz;
+    return fract(1.6 * atan(v.z, v.x) + 0.3 * float(index)) < 0.6 ? 1.0 : 0.0;
+}
+)";
+
+struct StubBlock {
+    glm::vec4 sun_direction, sun_illuminance, ambient, options;
+};
+
+Image as_rgb(const Image& image, int channel) {
+    Image rgb(image.size, 3);
+    for (int y = 0; y < image.size.y; ++y)
+        for (int x = 0; x < image.size.x; ++x)
+            for (int c = 0; c < 3; ++c) rgb.at(x, y)[c] = image.at(x, y)[channel < 0 ? c : channel];
+    return rgb;
+}
+
+}  // namespace
+
+ShaderFolder::ShaderFolder() {
+    static int count = 0;
+    path_ = fs::temp_directory_path() /
+            ("tyndall_stub_host_" + std::to_string(getpid()) + "_" + std::to_string(count++));
+    fs::create_directories(path_ / "shaders/interface");
+    for (const char* name : {"lib", "shared", "volumetrics"})
+        fs::copy(data_root() / "shaders" / name, path_ / "shaders" / name, fs::copy_options::recursive);
+    write_text(path_ / "shaders/interface/lights.glsl", lights_glsl);
+    write_text(path_ / "shaders/interface/shadows.glsl", shadows_glsl);
+}
+
+ShaderFolder::~ShaderFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+}
+
+StubHost::StubHost() : shaders_(folder_.path()), volumetrics_(shaders_) {}
+
+glm::mat4 StubHost::projection() const {
+    const float f = 1 / std::tan(0.5F * vertical_fov);
+    glm::mat4 p(0);
+    p[0][0] = f * static_cast<float>(size.y) / static_cast<float>(size.x);
+    p[1][1] = f;
+    p[2][3] = -1;
+    p[3][2] = znear;
+    return p;
+}
+
+glm::vec3 StubHost::ray(int x, int y) const {
+    const glm::vec2 ndc = 2.0F * (glm::vec2(x, y) + 0.5F) / glm::vec2(size) - 1.0F;
+    const glm::mat4 p = projection();
+    return glm::normalize(glm::vec3(ndc.x / p[0][0], ndc.y / p[1][1], -1));
+}
+
+void StubHost::upload() {
+    const StubBlock block{glm::vec4(sun_direction, 0), glm::vec4(sun_illuminance, 0), glm::vec4(ambient, 0),
+                          glm::vec4(slices, slice_depth, shadows, 0)};
+    uniforms_.assign(std::span(&block, 1), "stub host uniforms");
+    lights_.assign(std::span<const shared::GpuLight>(lights), "stub host lights");
+    std::vector<shared::ClusterRange> ranges;
+    std::vector<std::uint32_t> list;
+    for (int slice = 0; slice < slices; ++slice) {
+        const auto first = static_cast<std::uint32_t>(list.size());
+        for (int light = 0; light < static_cast<int>(lights.size()); ++light)
+            if (listed(light, slice)) list.push_back(static_cast<std::uint32_t>(light));
+        ranges.push_back({first, static_cast<std::uint32_t>(list.size()) - first});
+    }
+    ranges_.assign(std::span<const shared::ClusterRange>(ranges), "stub host ranges");
+    list_.assign(std::span<const std::uint32_t>(list), "stub host list");
+
+    std::vector<float> depths;
+    for (int y = 0; y < size.y; ++y)
+        for (int x = 0; x < size.x; ++x) {
+            const float depth = view_depth(x, y);
+            depths.push_back(depth == sky ? 0.0F : znear / depth);
+        }
+    const gl::TextureDesc desc{.format = GL_DEPTH_COMPONENT32F, .size = {size, 1}};
+    if (!depth_ || !(depth_.desc() == desc)) depth_ = gl::Texture(desc, "stub host depth");
+    depth_.upload(0, GL_DEPTH_COMPONENT, GL_FLOAT, depths.data());
+}
+
+Inputs StubHost::inputs(PassList& passes) {
+    upload();
+    Inputs in;
+    in.view = glm::translate(glm::mat4(1), -eye);
+    in.projection = projection();
+    in.eye = eye;
+    in.znear = znear;
+    in.size = size;
+    in.depth = passes.import("depth", depth_);
+    in.global = global;
+    in.local = local;
+    in.has_sun = has_sun;
+    in.has_lamps = !lights.empty();
+    in.has_ambient = ambient != glm::vec3(0);
+    in.bind_lighting = [this] {
+        uniforms_.bind(GL_UNIFORM_BUFFER, BINDING_FRAME);
+        lights_.bind(GL_SHADER_STORAGE_BUFFER, BINDING_LIGHTS);
+        ranges_.bind(GL_SHADER_STORAGE_BUFFER, BINDING_CLUSTERS);
+        list_.bind(GL_SHADER_STORAGE_BUFFER, BINDING_CLUSTER_LIGHTS);
+    };
+    in.count_work = count_work;
+    return in;
+}
+
+Frame StubHost::render(const Settings& settings) {
+    PassList passes;
+    const Inputs in = inputs(passes);
+    volumetrics_.prepare(in, settings);
+    const volumetrics::Outputs out = volumetrics_.add_passes(passes, in, settings);
+    if (out.scattering) passes.export_texture(out.scattering);
+    if (out.transmittance) passes.export_texture(out.transmittance);
+    passes.compile();
+    gl::WorkCounters counters;
+    gl::GpuTimer timer(gl::TimerMode::finish);
+    if (count_work) counters.begin_frame();
+    timer.begin_frame();
+    passes.execute(pool_, &timer, count_work ? &counters : nullptr);
+    timer.begin_frame();
+
+    Frame frame;
+    frame.live_passes = passes.live_pass_names();
+    for (const PassList::PassInfo& pass : passes.passes())
+        if (!pass.live) frame.skipped[pass.name] = pass.reason;
+    for (const gl::GpuTimer::Scope& scope : timer.results()) frame.milliseconds[scope.name] = scope.gpu_ms;
+    if (count_work)
+        for (const auto& [name, counts] : counters.read()) frame.work[name] = counts;
+    frame.persistent_bytes = volumetrics_.persistent_bytes();
+    const auto textures = passes.textures();
+    const auto read = [&](TextureRef ref) {
+        return gl::read_texture(gl::TextureView(textures[ref.index].id, textures[ref.index].desc));
+    };
+    if (out.scattering) {
+        frame.scattering = read(out.scattering);
+        frame.transmittance = out.transmittance ? as_rgb(read(out.transmittance), -1) : as_rgb(frame.scattering, 3);
+    }
+    return frame;
+}
+
+Settings plain_settings(int steps) {
+    Settings settings;
+    settings.steps = steps;
+    settings.dither = volumetrics::Dither::none;
+    settings.blur = volumetrics::Blur::none;
+    return settings;
+}
+
+shared::GpuLight point_light(glm::vec3 position, float intensity, float range, float radius) {
+    return {.position_range = {position, range},
+            .intensity_radius = {glm::vec3(intensity), radius},
+            .direction_type = {0, -1, 0, LIGHT_POINT},
+            .cone_shadow = {0, 1, 0, 0}};
+}
+
+shared::GpuLight spot_light(glm::vec3 position, glm::vec3 direction, float intensity, float cos_inner,
+                            float cos_outer, float range) {
+    const float scale = 1 / std::max(0.001F, cos_inner - cos_outer);
+    return {.position_range = {position, range},
+            .intensity_radius = {glm::vec3(intensity), 0.01F},
+            .direction_type = {glm::normalize(direction), LIGHT_SPOT},
+            .cone_shadow = {scale, -cos_outer * scale, 0, 0}};
+}
+
+double phase_hg(double g, double cos_theta) {
+    return (1 - g * g) / (4 * std::numbers::pi * std::pow(1 + g * g - 2 * g * cos_theta, 1.5));
+}
+
+}  // namespace tyndall::test

@@ -1,0 +1,162 @@
+// Which passes a frame has, what they cost, and that every permutation of every program builds.
+
+#include <gmock/gmock.h>
+
+#include "engine/core/error.h"
+#include "engine/core/files.h"
+#include "engine/gl/readback.h"
+#include "tests/gpu/support/gl_test.h"
+#include "tests/gpu/support/volumetrics_host.h"
+
+namespace tyndall::test {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+using ::testing::Key;
+using ::testing::UnorderedElementsAre;
+
+class VolumetricsPasses : public GlTest {
+  protected:
+    StubHost host;
+    const GlobalMedium fog{.sigma_s = glm::vec3(0.1F)};
+    const LocalMedium ball{.center = {0, 0, -5}, .sigma_s = glm::vec3(0.1F)};
+};
+
+TEST_F(VolumetricsPasses, WithoutMediumNothingIsAddedOrHeld) {
+    for (int i = 0; i < 2; ++i) {
+        host.global = {fog};
+        EXPECT_GT(host.render(Settings{}).persistent_bytes, 0U);
+        host.global = i == 0 ? std::vector<GlobalMedium>{} : std::vector<GlobalMedium>{GlobalMedium{}};
+        const Frame frame = host.render(Settings{});
+        EXPECT_THAT(frame.live_passes, IsEmpty());
+        EXPECT_THAT(frame.skipped,
+                    UnorderedElementsAre(Key("volumetrics/inject_media"), Key("volumetrics/march"),
+                                         Key("volumetrics/blur_horizontal"), Key("volumetrics/blur_vertical"),
+                                         Key("volumetrics/composite")));
+        EXPECT_EQ(frame.persistent_bytes, 0U);
+    }
+}
+
+TEST_F(VolumetricsPasses, TechniqueOffIsAsIfThereWereNoMedium) {
+    host.global = {fog};
+    Settings settings;
+    settings.technique = volumetrics::Technique::off;
+    const Frame frame = host.render(settings);
+    EXPECT_THAT(frame.live_passes, IsEmpty());
+    EXPECT_EQ(frame.skipped.at("volumetrics/march"), "technique is off");
+    EXPECT_EQ(frame.persistent_bytes, 0U);
+}
+
+TEST_F(VolumetricsPasses, EachPassIsThereWhenItIsNeeded) {
+    host.global = {fog};
+    Settings settings;
+    settings.blur = volumetrics::Blur::none;
+    EXPECT_THAT(host.render(settings).live_passes, ElementsAre("volumetrics/march"));
+    settings.blur = volumetrics::Blur::gaussian;
+    EXPECT_THAT(host.render(settings).live_passes,
+                ElementsAre("volumetrics/march", "volumetrics/blur_horizontal", "volumetrics/blur_vertical"));
+    host.global.clear();
+    host.local = {ball};
+    EXPECT_THAT(host.render(settings).live_passes,
+                ElementsAre("volumetrics/inject_media", "volumetrics/march", "volumetrics/blur_horizontal",
+                            "volumetrics/blur_vertical"));
+}
+
+TEST_F(VolumetricsPasses, MoreHeightMediaThanTheBlockHoldsAreAnError) {
+    host.global.assign(5, {.sigma_s = glm::vec3(0.1F), .height = true});
+    EXPECT_THROW(host.render(Settings{}), Error);
+}
+
+TEST_F(VolumetricsPasses, EveryPermutationBuilds) {
+    ShaderLibrary engine_lighting(data_root());
+    int count = 0;
+    for (const ProgramDesc* desc : ProgramRegistry::all()) {
+        if (!desc->name.starts_with("volumetrics/")) continue;
+        for (const Permutation& permutation : all_permutations(*desc)) {
+            EXPECT_NO_THROW((void)engine_lighting.get(*desc, permutation));
+            ++count;
+        }
+    }
+    EXPECT_GT(count, 100);
+    EXPECT_LE(count, 300);
+}
+
+TEST_F(VolumetricsPasses, WorkIsCountedExactly) {
+    host.count_work = true;
+    host.size = {8, 8};
+    host.global = {fog};
+    host.has_sun = true;
+    host.lights = {point_light({0, 1, -3}, 10), point_light({0, -1, -3}, 10)};
+    host.lights[1].cone_shadow.z = -1;  // casts no shadow
+    constexpr std::uint64_t pixels = 64, steps = 5;
+    for (const auto lamps : {volumetrics::LampIntegration::center, volumetrics::LampIntegration::segment}) {
+        Settings settings = plain_settings(steps);
+        settings.lamp_integration = lamps;
+        const gl::WorkCounts work = host.render(settings).work.at("volumetrics/march");
+        EXPECT_EQ(work[int(gl::Work::medium_samples)], pixels * steps);
+        EXPECT_EQ(work[int(gl::Work::shadow_lookups)], pixels * steps * 2);  // the sun and one lamp
+        EXPECT_EQ(work[int(gl::Work::light_evaluations)], pixels * steps * 2);
+        EXPECT_EQ(work[int(gl::Work::texture_fetches)], pixels);
+    }
+    Settings settings = plain_settings(steps);
+    settings.blur = volumetrics::Blur::bilateral;
+    EXPECT_EQ(host.render(settings).work.at("volumetrics/blur_vertical")[int(gl::Work::texture_fetches)],
+              pixels * 30);
+}
+
+TEST_F(VolumetricsPasses, LampsElsewhereCostNothing) {
+    host.count_work = true;
+    host.global = {fog};
+    host.slices = 10;
+    host.slice_depth = 1;
+    host.view_depth = [](int, int) { return 10.0F; };
+    const auto evaluations = [&](int lamps) {
+        host.lights.assign(lamps, point_light({0, 500, 0}, 10, 5));
+        host.lights[0] = point_light({0, 1, -3}, 10, 2);
+        host.listed = [](int light, int) { return light == 0; };
+        return host.render(plain_settings(8)).work.at("volumetrics/march")[int(gl::Work::light_evaluations)];
+    };
+    const auto one = evaluations(1);
+    EXPECT_GT(one, 0U);
+    EXPECT_EQ(evaluations(4096), one);
+}
+
+TEST_F(VolumetricsPasses, CompositeBlendsPerChannel) {
+    host.size = {4, 4};
+    host.vertical_fov = 1e-3F;
+    host.ambient = glm::vec3(1);
+    for (const glm::vec3 sigma_a : {glm::vec3(0.1F), glm::vec3(0, 0.1F, 0.3F)}) {
+        host.global = {{.sigma_s = glm::vec3(0.05F), .sigma_a = sigma_a}};
+        gl::Texture color({.format = GL_RGBA16F, .size = {4, 4, 1}}, "color");
+        color.clear_float(8, 8, 8, 1);
+        PassList passes;
+        const Inputs inputs = host.inputs(passes);
+        const Settings settings = plain_settings(4);
+        host.volumetrics().prepare(inputs, settings);
+        const volumetrics::Outputs outputs = host.volumetrics().add_passes(passes, inputs, settings);
+        const TextureRef before = passes.import("color", color);
+        const TextureRef after = host.volumetrics().composite(passes, outputs, before);
+        EXPECT_NE(after, before);
+        passes.export_texture(after);
+        passes.compile();
+        TransientPool pool;
+        passes.execute(pool);
+        const Image image = gl::read_texture(color);
+        for (int c = 0; c < 3; ++c) {
+            const double sigma_t = 0.05 + sigma_a[c];
+            const double expected = 0.05 / sigma_t * -std::expm1(-sigma_t * 10) + 8 * std::exp(-sigma_t * 10);
+            EXPECT_NEAR(image.at(1, 1)[c], expected, 2e-3 * expected);
+        }
+    }
+}
+
+TEST_F(VolumetricsPasses, CompositeOfNothingReturnsTheSameTexture) {
+    PassList passes;
+    const gl::Texture color({.format = GL_RGBA16F, .size = {4, 4, 1}}, "color");
+    const TextureRef before = passes.import("color", color);
+    EXPECT_EQ(host.volumetrics().composite(passes, {}, before), before);
+}
+
+}  // namespace
+}  // namespace tyndall::test

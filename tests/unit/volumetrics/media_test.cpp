@@ -1,0 +1,145 @@
+#include "modules/volumetrics/src/media.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+#include <random>
+
+#include "engine/core/error.h"
+#include "modules/volumetrics/src/dither.h"
+#include "modules/volumetrics/src/froxel_tiles.h"
+
+namespace tyndall::volumetrics {
+namespace {
+
+Inputs view_inputs(glm::vec3 eye = glm::vec3(0), glm::vec3 look = {0, 0, -1}) {
+    Inputs inputs;
+    inputs.size = {160, 90};
+    inputs.eye = eye;
+    inputs.view = glm::lookAt(eye, look, {0, 1, 0});
+    glm::mat4 p(0);
+    p[1][1] = 1.5F;
+    p[0][0] = p[1][1] * 9 / 16;
+    p[2][3] = -1;
+    p[3][2] = inputs.znear;
+    inputs.projection = p;
+    return inputs;
+}
+
+TEST(VolumetricsMedia, HomogeneousMediaAddAndAverageTheirAnisotropyByScattering) {
+    Inputs inputs = view_inputs();
+    inputs.global = {{.sigma_s = glm::vec3(0.3F), .sigma_a = {0.1F, 0, 0}, .anisotropy = 0.5F},
+                     {.sigma_s = glm::vec3(0.1F), .anisotropy = -0.5F, .emission = {0, 1, 0}}};
+    const FrameMedia media = gather_media(inputs, {});
+    EXPECT_NEAR(media.data.homogeneous_sigma_s.r, 0.4, 1e-6);
+    EXPECT_NEAR(media.data.homogeneous_sigma_s.w, 0.25, 1e-6);
+    EXPECT_NEAR(media.data.homogeneous_sigma_t.r, 0.5, 1e-6);
+    EXPECT_EQ(media.data.homogeneous_emission.g, 1);
+    EXPECT_TRUE(media.has_global);
+    EXPECT_FALSE(media.has_height);
+    EXPECT_TRUE(media.chromatic);
+}
+
+TEST(VolumetricsMedia, OnlyColouredExtinctionNeedsThreeTransmittances) {
+    Inputs inputs = view_inputs();
+    inputs.global = {{.sigma_s = {0.1F, 0.2F, 0.3F}, .sigma_a = {0.3F, 0.2F, 0.1F}}};
+    EXPECT_FALSE(gather_media(inputs, {}).chromatic);  // whatever the sums are rounded to
+    inputs.global = {{.sigma_s = glm::vec3(0.1F), .emission = {1, 0, 0}}};
+    EXPECT_FALSE(gather_media(inputs, {}).chromatic);
+    inputs.local = {{.center = {0, 0, -5}, .sigma_a = {1, 0, 0}}};
+    EXPECT_TRUE(gather_media(inputs, {}).chromatic);
+}
+
+TEST(VolumetricsMedia, MediaThatDoNothingAreLeftOut) {
+    Inputs inputs = view_inputs();
+    inputs.global.assign(9, GlobalMedium{.height = true});
+    inputs.local.assign(3, LocalMedium{.center = {0, 0, -5}});
+    EXPECT_TRUE(gather_media(inputs, {}).empty());
+    inputs.global.assign(5, GlobalMedium{.sigma_s = glm::vec3(1), .height = true});
+    EXPECT_THROW((void)gather_media(inputs, {}), Error);
+}
+
+TEST(VolumetricsMedia, StepsFillTheRayAndGrowByTheStrength) {
+    Inputs inputs = view_inputs();
+    inputs.global = {{.sigma_s = glm::vec3(1)}};
+    for (const int steps : {1, 2, 8, 1024})
+        for (const float strength : {0.01F, 1.0F, 10.0F}) {
+            const glm::vec4 march =
+                gather_media(inputs,
+                             {.steps = steps, .stepping = Stepping::exponential, .stepping_strength = strength})
+                    .data.march;
+            double sum = 0, length = march.y, last = 0;
+            for (int i = 0; i < steps; ++i, length *= march.z) sum += last = length;
+            EXPECT_NEAR(sum, 1, 1e-4) << steps << ' ' << strength;
+            EXPECT_NEAR(std::log(last / march.y), steps > 1 ? strength : 0, 1e-3) << steps;
+        }
+}
+
+// Against points drawn from the shapes: each is in a froxel of its medium's box.
+TEST(VolumetricsMedia, FroxelBoundsHoldEveryPointInView) {
+    std::mt19937 random(3);
+    std::uniform_real_distribution<float> unit(-1, 1);
+    for (const auto distribution : {DepthDistribution::linear, DepthDistribution::exponential}) {
+        const Settings settings{.froxel_distribution = distribution};
+        for (int trial = 0; trial < 200; ++trial) {
+            const Inputs inputs = view_inputs({unit(random), unit(random), unit(random)},
+                                              {10 * unit(random), 5 * unit(random), 10 * unit(random)});
+            const FroxelGrid grid = froxel_grid(inputs, settings);
+            const LocalMedium medium{
+                .center = {30 * unit(random), 10 * unit(random), 30 * unit(random)},
+                .half_extent = {0.1F + 3 * std::abs(unit(random)), 0.1F + 3 * std::abs(unit(random)), 1},
+                .rotation = glm::angleAxis(3 * unit(random), glm::normalize(glm::vec3(1, unit(random), 1)))};
+            const IndexBox box = froxel_bounds(medium, inputs, grid);
+            for (int i = 0; i < 100; ++i) {
+                const glm::vec3 local = glm::vec3(unit(random), unit(random), unit(random)) * medium.half_extent;
+                const glm::vec4 view = inputs.view * glm::vec4(medium.center + medium.rotation * local, 1);
+                const float depth = -view.z;
+                if (depth < grid.nearest || depth >= grid.farthest) continue;
+                const glm::vec4 clip = inputs.projection * view;
+                const glm::vec2 uv = 0.5F * glm::vec2(clip) / clip.w + 0.5F;
+                if (uv.x < 0 || uv.y < 0 || uv.x >= 1 || uv.y >= 1) continue;
+                const float w = distribution == DepthDistribution::linear
+                                    ? (depth - grid.nearest) / (grid.farthest - grid.nearest)
+                                    : std::log(depth / grid.nearest) / std::log(grid.farthest / grid.nearest);
+                const glm::ivec3 index(glm::vec3(uv, w) * glm::vec3(grid.size));
+                ASSERT_TRUE(glm::all(glm::greaterThanEqual(index, box.lower)) &&
+                            glm::all(glm::lessThan(index, box.upper)));
+            }
+        }
+    }
+}
+
+TEST(VolumetricsMedia, TileMasksHoldWhichBoxesMeetWhichTiles) {
+    const glm::ivec3 froxels{50, 33, 5};
+    std::vector<IndexBox> boxes(40, IndexBox{{0, 0, 0}, {50, 33, 5}});
+    boxes[0] = {{15, 0, 2}, {17, 1, 3}};
+    boxes[33] = {{48, 32, 4}, {50, 33, 5}};
+    const glm::ivec3 tiles = tile_counts(froxels);
+    EXPECT_EQ(tiles, glm::ivec3(4, 3, 5));
+    const std::vector<std::uint32_t> masks = tile_masks(boxes, froxels);
+    ASSERT_EQ(masks.size(), 2U * 4 * 3 * 5);
+    for (int z = 0; z < 5; ++z)
+        for (int y = 0; y < 3; ++y)
+            for (int x = 0; x < 4; ++x) {
+                const std::size_t tile = x + 4 * (y + 3 * z);
+                EXPECT_EQ(masks[2 * tile] & 1U, unsigned(x < 2 && y == 0 && z == 2));
+                EXPECT_EQ(masks[2 * tile] >> 1, 0x7fffffffU);
+                EXPECT_EQ(masks[2 * tile + 1], (x == 3 && y == 2 && z == 4) ? 0xffU : 0xfdU);
+            }
+}
+
+TEST(VolumetricsMedia, DitherTilesHoldEveryOffsetOnce) {
+    EXPECT_EQ(dither_tile(Dither::none, 8), std::vector<float>{0.5F});
+    for (const Dither dither : {Dither::white, Dither::bayer})
+        for (const int size : {2, 4, 8, 16}) {
+            std::vector<float> tile = dither_tile(dither, size);
+            std::sort(tile.begin(), tile.end());
+            ASSERT_EQ(tile.size(), std::size_t(size) * size);
+            for (std::size_t i = 0; i < tile.size(); ++i)
+                EXPECT_FLOAT_EQ(tile[i], (static_cast<float>(i) + 0.5F) / static_cast<float>(tile.size()));
+        }
+}
+
+}  // namespace
+}  // namespace tyndall::volumetrics

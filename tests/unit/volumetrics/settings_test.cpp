@@ -1,0 +1,55 @@
+#include "volumetrics/settings.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "engine/core/error.h"
+
+namespace tyndall::volumetrics {
+namespace {
+
+TEST(VolumetricsSettings, TableHoldsTheDefaultsAndExplainsEveryRow) {
+    Settings settings;
+    SettingsSet set;
+    set.add(settings_table(), &settings);  // fails where a default is outside its range
+    std::set<std::string> keys;
+    for (const Setting& row : settings_table().settings()) {
+        EXPECT_TRUE(keys.insert(row.key).second) << row.key;
+        EXPECT_FALSE(row.label.empty()) << row.key;
+        EXPECT_TRUE(row.help.ends_with('.')) << row.key;
+    }
+    EXPECT_EQ(keys.size(), 19U);  // one row for each member of Settings
+}
+
+TEST(VolumetricsSettings, NamesAreInEnumOrder) {
+    Settings settings;
+    SettingsSet set;
+    set.add(settings_table(), &settings);
+    set.set("technique", "off");
+    EXPECT_EQ(settings.technique, Technique::off);
+    set.set("lamp_integration", "center");
+    EXPECT_EQ(settings.lamp_integration, LampIntegration::center);
+    set.set("stepping", "exponential");
+    EXPECT_EQ(settings.stepping, Stepping::exponential);
+    set.set("dither", "white");
+    EXPECT_EQ(settings.dither, Dither::white);
+    set.set("blur", "gaussian");
+    EXPECT_EQ(settings.blur, Blur::gaussian);
+    set.set("phase", "schlick");
+    EXPECT_EQ(settings.phase, PhaseFunction::schlick);
+    set.set("froxel_distribution", "linear");
+    EXPECT_EQ(settings.froxel_distribution, DepthDistribution::linear);
+    EXPECT_EQ(technique_names().at(static_cast<std::size_t>(Technique::ray_march)), "ray_march");
+}
+
+TEST(VolumetricsSettings, ValuesOutOfRangeAreRefused) {
+    Settings settings;
+    SettingsSet set;
+    set.add(settings_table(), &settings);
+    for (const char* assignment : {"steps=0", "steps=1025", "dither_size=3", "blur_sigma=0", "technique=froxels"})
+        EXPECT_THROW(set.set(assignment), UsageError) << assignment;
+}
+
+}  // namespace
+}  // namespace tyndall::volumetrics
