@@ -280,14 +280,14 @@ void furnish(Level& level, const Lamps& lamps, const Props& props) {
                          {-38.2f + 0.9f * static_cast<float>(i), i < 2 ? 0.54f : (i == 2 ? 0.18f : 0.0f),
                           s * (2.2f + 0.5f * static_cast<float>(i))},
                          45.0f);
-        brazier(level, lamps, {-29.6f, 0, s * 2.6f}, 220.0f);
+        brazier(level, lamps, {-29.6f, 0, s * 2.6f}, 320.0f);
         for (const int bay : {1, 2, 5, 6, 7}) {  // lanterns on the piers, towards the nave
             wall_lantern(level, lamps, {-5.5f * static_cast<float>(bay), 3.2f, s * (4.6f - 0.74f)},
-                         s < 0 ? 0.0f : 180.0f, 130.0f);
+                         s < 0 ? 0.0f : 180.0f, 200.0f);
         }
         for (const int bay : {1, 3, 5, 7}) {  // and in the aisles
             wall_lantern(level, lamps, {-5.5f * static_cast<float>(bay), 3.0f, s * 9.1f}, s < 0 ? 0.0f : 180.0f,
-                         90.0f);
+                         150.0f);
         }
         level.add_instance("ivy", props.ivy, {-17.6f, 0, s * 4.12f}, s < 0 ? 0.0f : 180.0f, 1.1f);
         level.add_instance("ivy", props.ivy, {-24.0f, 8.2f, s * 4.1f}, s < 0 ? 0.0f : 180.0f, 0.9f);

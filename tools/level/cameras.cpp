@@ -16,10 +16,10 @@ struct Place {
 
 std::vector<Place> places() {
     return {
-        {"LocalPM", 60.0f, {{-9.6f, 1.75f, 0.9f}, 87.0f, 8.0f}},
+        {"LocalPM", 60.0f, {{-8.6f, 1.75f, -2.4f}, 99.0f, 9.0f}},
         {"Close", 62.0f, {{-20.3f, -1.35f, 11.35f}, 93.0f, -6.0f}},
         {"LocalLights", 58.0f, {{100.0f, street_height(100.0f) + 2.5f, 0.7f}, 90.0f, 5.0f}},
-        {"Sun", 60.0f, {{-10.6f, -1.3f, 24.2f}, 132.0f, 9.0f}},
+        {"Sun", 60.0f, {{-11.0f, -1.3f, 24.4f}, 125.0f, 14.0f}},
         {"Depth", 60.0f, {{-53.8f, -1.25f, 70.3f}, 47.0f, -5.0f}},
         {"Balance", 60.0f, {{-37.4f, -1.25f, 15.2f}, 174.0f, 4.0f}},
     };
@@ -101,22 +101,23 @@ json& box_fog(Level& level, vec3 centre, vec3 size, float scattering, float anis
 }  // namespace
 
 void add_media(Level& level) {
-    json haze = fog("height", 0.008f, 0.5f);
+    json haze = fog("height", 0.0065f, 0.45f);
     haze["base"] = 0.0f;
-    haze["falloff"] = 9.0f;
+    haze["falloff"] = 8.0f;
     level.media.push_back(haze);
     // LocalPM: mist on the nave's floor, incense over the braziers, the font and the altar.
-    json& floor_mist = box_fog(level, {-23.0f, 1.4f, 0.0f}, {36.0f, 2.8f, 17.0f}, 0.22f, 0.4f, 0.8f);
+    json& floor_mist = box_fog(level, {-23.0f, 1.4f, 0.0f}, {36.0f, 2.8f, 17.0f}, 0.15f, 0.4f, 0.8f);
     floor_mist["noise"] = {{"scale", 2.2f}, {"amount", 0.9f}, {"seed", 11}};
     floor_mist["height"] = {{"base", 0.0f}, {"falloff", 0.7f}};
-    cloud(level, {-22.75f, 2.9f, 0.0f}, {2.6f, 2.3f, 2.4f}, 0.40f, 1.1f, 1);
+    box_fog(level, {-22.5f, 6.0f, 0.0f}, {44.0f, 16.0f, 19.0f}, 0.022f, 0.5f, 2.0f);
+    cloud(level, {-22.75f, 2.9f, 0.0f}, {2.6f, 2.3f, 2.4f}, 0.35f, 1.1f, 1);
     cloud(level, {-29.8f, 3.0f, 2.7f}, {1.9f, 2.6f, 1.8f}, 0.50f, 0.9f, 2);
     cloud(level, {-29.4f, 3.4f, -2.6f}, {2.0f, 2.9f, 1.9f}, 0.50f, 0.9f, 3);
-    cloud(level, {-15.5f, 4.0f, -2.4f}, {3.6f, 1.5f, 2.2f}, 0.28f, 1.3f, 4);
+    cloud(level, {-15.5f, 4.0f, -2.4f}, {3.6f, 1.5f, 2.2f}, 0.22f, 1.3f, 4);
     cloud(level, {-40.3f, 3.6f, 0.0f}, {2.8f, 2.6f, 4.0f}, 0.25f, 1.4f, 5);
     cloud(level, {-18.0f, 6.5f, 1.5f}, {4.5f, 2.4f, 2.6f}, 0.20f, 1.8f, 6);
     // Sun: mist under and around the tree. Balance: thick fog along the loggia.
-    box_fog(level, {-19.0f, 0.5f, 35.5f}, {33.0f, 12.0f, 46.0f}, 0.034f, 0.6f, 3.0f);
+    box_fog(level, {-19.0f, 0.5f, 35.5f}, {33.0f, 12.0f, 46.0f}, 0.020f, 0.5f, 3.0f);
     box_fog(level, {-42.0f, 0.0f, 38.0f}, {13.0f, 11.0f, 52.0f}, 0.065f, 0.55f, 2.5f);
 }
 

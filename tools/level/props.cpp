@@ -19,7 +19,7 @@ Mesh barrel_mesh() {
     const std::array<vec2, 2> lid{{{0.245f, 0.86f}, {0.0f, 0.86f}}};
     lathe(m, Mat::Planks, vec3(0), lid, 10);
     for (const float y : {0.12f, 0.68f}) {
-        const std::array<vec2, 2> hoop{{{0.315f, y}, {0.345f, y + 0.07f}}};
+        const std::array<vec2, 4> hoop{{{0.27f, y - 0.01f}, {0.345f, y}, {0.355f, y + 0.07f}, {0.27f, y + 0.08f}}};
         lathe(m, Mat::Iron, vec3(0), hoop, 10);
     }
     return m;

@@ -150,7 +150,7 @@ void strings(Level& level, const Lamps& lamps) {
             return vec3(x + skew * t, base - sag * (1.0f - t * t) + 0.5f * skew * t * 0.2f, half * t);
         };
         std::vector<vec3> path;
-        for (int k = 0; k <= 10; ++k) path.push_back(at(-1.0f + 0.2f * static_cast<float>(k)));
+        for (int k = 0; k <= 8; ++k) path.push_back(at(-1.0f + 0.25f * static_cast<float>(k)));
         sweep(m, Mat::Timber, path, rectangle_section(0.03f, 0.03f), vec3(0, 1, 0));
         const int count = 5;
         for (int k = 0; k < count; ++k) {

@@ -39,12 +39,14 @@ float height(float x, float z) {
     const float ridge = 1.0f - std::abs(2.0f * noise(x, z, 520.0f, 5, 203) - 1.0f);
     const float hills = smooth(260.0f, 1500.0f, r) * (60.0f + 330.0f * ridge * ridge) +
                         smooth(200.0f, 500.0f, r) * 26.0f * noise(x, z, 120.0f, 4, 204);
-    const float low = valley + hills;
+    // Wooded knolls stand out of the fog like islands.
+    const float knoll = smooth(0.55f, 0.80f, noise(x, z, 150.0f, 3, 206)) * smooth(110.0f, 190.0f, r) * 66.0f;
+    const float low = valley + hills + knoll;
     const float ledges = smooth(0.0f, 9.0f, d) * 0.55f + smooth(12.0f, 34.0f, d) * 0.45f;
     float y = glm::mix(ground, std::min(low, ground), ledges);
     if (low > ground) y = glm::mix(ground, low, smooth(0.0f, 60.0f, d));
     const float t = glm::length(vec2(x, z) - kTower) + (noise(x, z, 14.0f, 3, 205) - 0.5f) * 10.0f;
-    return std::max(y, glm::mix(-7.0f, -66.0f, smooth(10.0f, 30.0f, t)));
+    return std::max(y, glm::mix(-3.5f, -66.0f, smooth(9.0f, 30.0f, t)));
 }
 
 std::vector<float> spacing(float low, float high, float step, float reach) {
@@ -101,10 +103,10 @@ Mesh viaduct_span() {  // 14 m along x, deck at y = 0
     Wall w{{-7.0f, -60.0f, 0}, {1, 0, 0}, 14.0f, 60.0f, 4.2f, {}, {}, 0.8f, true};
     w.openings = {round_opening(7.0f, 10.6f, 0.0f, 52.0f, 8)};
     wall(m, Mat::Rubble, w);
+    Opening arch = w.openings[0];
+    std::ranges::fill(arch.lower, 52.0f);
+    archivolt(m, Mat::Trim, w, arch, 0.7f, 0.2f, 1);
     for (const float side : {1.0f, -1.0f}) {
-        Opening arch = w.openings[0];
-        std::ranges::fill(arch.lower, 52.0f);
-        archivolt(m, Mat::Trim, w, arch, 0.7f, 0.2f, side);
         box(m, Mat::Rubble, {-7.0f, -0.5f, side * 2.1f - 0.25f}, {7.0f, 1.0f, side * 2.1f + 0.25f},
             kBottom | kLeft | kRight);
         chamfered_box(m, Mat::Trim, {-8.3f, -9.2f, side * 1.9f - 0.5f}, {-5.7f, -8.6f, side * 1.9f + 0.5f}, 0.1f);
@@ -150,7 +152,7 @@ void add_terrain(Level& level) {
     height_field(m);
     level.add_static(std::move(m));
     const int span = level.add_mesh(viaduct_span());
-    const vec3 from(-66.0f, -12.0f, 2.0f), to(kTower.x + 26.0f, -9.0f, kTower.y + 2.0f);
+    const vec3 from(-68.0f, -5.5f, 4.0f), to(kTower.x + 24.0f, -3.0f, kTower.y + 2.0f);
     const vec3 d = to - from;
     const int count = static_cast<int>(glm::length(d) / 14.0f);
     const float yaw = arctangent(-d.z, d.x) * 180.0f / kPi;
@@ -160,7 +162,7 @@ void add_terrain(Level& level) {
                            yaw);
     }
     const int tower = level.add_mesh(watch_tower());
-    level.add_instance("watch_tower", tower, {kTower.x, -8.0f, kTower.y});
+    level.add_instance("watch_tower", tower, {kTower.x, -3.0f, kTower.y});
 }
 
 }  // namespace tyndall::level

@@ -82,9 +82,9 @@ void add_tree(Level& level) {
                                     {0.1f, 2.0f, 0.0f},
                                     {0.05f, 3.2f, 0.12f},
                                     {-0.1f, 4.4f, 0.1f},
-                                    {-0.05f, 5.6f, 0.0f},
-                                    {0.1f, 7.4f, 0.05f}}};
-    const std::array<float, 8> radii{1.05f, 0.82f, 0.66f, 0.56f, 0.52f, 0.46f, 0.34f, 0.14f};
+                                    {-0.05f, 6.2f, 0.0f},
+                                    {0.1f, 9.2f, 0.05f}}};
+    const std::array<float, 8> radii{1.15f, 0.92f, 0.74f, 0.64f, 0.60f, 0.54f, 0.38f, 0.15f};
     tube(trunk, Mat::Bark, line, radii, 14);
     for (int i = 0; i < 6; ++i) {  // roots
         const float a = static_cast<float>(i) * kPi / 3.0f + random.range(-0.3f, 0.3f);
@@ -94,33 +94,33 @@ void add_tree(Level& level) {
              std::array{0.30f, 0.24f, 0.06f}, 7);
     }
     const int root = level.add_instance("tree", level.add_mesh(std::move(trunk)), kFoot);
-    const int limbs = 9;
+    const int limbs = 11;
     for (int i = 0; i < limbs; ++i) {
         const bool leader = i == limbs - 1;
         const float a =
             leader ? 0.0f : 2.0f * kPi * (static_cast<float>(i) + random.range(-0.2f, 0.2f)) / (limbs - 1);
         const vec3 pivot =
-            leader ? vec3(0.1f, 7.2f, 0.05f) : vec3(-0.05f, 3.6f + 0.42f * static_cast<float>((i * 3) % 8), 0.1f);
-        const float pitch = leader ? 1.45f : random.range(0.35f, 0.75f),
-                    length = leader ? 3.2f : random.range(4.6f, 5.8f);
+            leader ? vec3(0.1f, 9.0f, 0.05f) : vec3(-0.05f, 3.9f + 0.46f * static_cast<float>((i * 3) % 10), 0.1f);
+        const float pitch = leader ? 1.45f : random.range(0.22f, 0.80f),
+                    length = leader ? 4.2f : random.range(5.6f, 7.6f);
         const vec3 d(cosine(a) * cosine(pitch), sine(pitch), sine(a) * cosine(pitch));
         Mesh wood{"tree_limb_" + std::to_string(i), {}, mat4(1.0f)},
             leaves{"tree_leaves_" + std::to_string(i), {}, mat4(1.0f)};
         const auto path = bent(vec3(0), d, length, 0.10f, 6, random);
-        tube(wood, Mat::Bark, path, taper(leader ? 0.15f : 0.24f, 0.05f, path.size()), 8);
-        const vec3 crown = vec3(0, 7.4f, 0) - pivot;
+        tube(wood, Mat::Bark, path, taper(leader ? 0.16f : 0.28f, 0.05f, path.size()), 8);
+        const vec3 crown = vec3(0, 8.6f, 0) - pivot;
         const vec3 hub = path[3];  // the foliage node turns about this point
         auto add_cluster = [&](vec3 at, float scale, int count) {
-            cluster(leaves, at - hub, vec3(1.55f, 1.1f, 1.55f) * scale, count, crown - hub, random);
+            cluster(leaves, at - hub, vec3(1.5f, 0.85f, 1.5f) * scale, count, crown - hub, random);
         };
-        add_cluster(path.back() + d * 0.4f, 1.0f, 46);
+        add_cluster(path.back() + d * 0.4f, 1.0f, 30);
         for (int k = 0; k < 4; ++k) {
             const size_t from = 2 + static_cast<size_t>(k % 3);
             const float turn = a + (k % 2 ? 1.0f : -1.0f) * random.range(0.6f, 1.3f);
             const vec3 e(cosine(turn), random.range(0.2f, 0.9f), sine(turn));
-            const auto twig = bent(path[from], e, random.range(1.6f, 2.6f), 0.12f, 4, random);
+            const auto twig = bent(path[from], e, random.range(2.0f, 3.4f), 0.10f, 4, random);
             tube(wood, Mat::Bark, twig, taper(0.09f, 0.02f, twig.size()), 5);
-            add_cluster(twig.back(), random.range(0.75f, 1.0f), 36);
+            add_cluster(twig.back(), random.range(0.7f, 1.05f), 26);
         }
         const int limb = level.add_instance(wood.name, level.add_mesh(wood), pivot);
         const int foliage = level.add_instance(leaves.name, level.add_mesh(leaves), hub);

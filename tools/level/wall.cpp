@@ -160,7 +160,7 @@ void archivolt(Mesh& mesh, Mat mat, const Wall& w, const Opening& o, float width
         return wall_point(w, p.x, p.y) + out * (w.thickness / 2 + depth);
     };
     auto face = [&](vec3 a, vec3 b, vec3 c, vec3 d) {
-        side > 0 ? mesh.quad(mat, a, b, c, d) : mesh.quad(mat, d, c, b, a);
+        side > 0 ? mesh.quad(mat, d, c, b, a) : mesh.quad(mat, a, b, c, d);
     };
     const float bevel = std::min(width, proud) * 0.35f;
     for (size_t i = 0; i + 1 < count; ++i) {
