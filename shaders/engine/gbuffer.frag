@@ -34,7 +34,8 @@ void main() {
     // Two-sided surfaces show the back with its normal reversed; a mirrored instance has its faces wound backwards.
     float side = gl_FrontFacing == (handedness > 0.0) ? 1.0 : -1.0;
     vec3 n = normalize(world_normal);
-    vec3 bump = texture(normal_texture, uv).xyz * 2.0 - 1.0;
+    // 8 bits hold no 0.5: 128 is what everybody writes for a flat surface, so that is made exactly flat.
+    vec3 bump = texture(normal_texture, uv).xyz * (255.0 / 127.0) - 128.0 / 127.0;
     bump.xy *= factors.z;
     vec3 t = world_tangent.xyz - n * dot(n, world_tangent.xyz);
     float t_length = length(t);

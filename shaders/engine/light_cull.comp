@@ -14,13 +14,14 @@ layout(binding = 0) uniform sampler2D pyramid;
 // most 4 x 4 texels cover the rectangle; level k of the pyramid stands for depth pixels shifted right by k + 1.
 bool is_hidden(ScreenBounds bounds) {
     if (bounds.near <= frame.depth.x) return false;
-    ivec2 last = ivec2(frame.viewport.xy) - 1;
-    ivec2 lo = clamp(ivec2(floor((bounds.lo * 0.5 + 0.5) * frame.viewport.xy)), ivec2(0), last);
-    ivec2 hi = clamp(ivec2(floor((bounds.hi * 0.5 + 0.5) * frame.viewport.xy)), ivec2(0), last);
+    vec2 last = frame.viewport.xy - 1.0;
+    ivec2 lo = ivec2(clamp((bounds.lo * 0.5 + 0.5) * frame.viewport.xy, vec2(0.0), last));
+    ivec2 hi = ivec2(clamp((bounds.hi * 0.5 + 0.5) * frame.viewport.xy, vec2(0.0), last));
     int level = 0;
     int top = textureQueryLevels(pyramid) - 1;
     while (level < top && any(greaterThan((hi >> (level + 1)) - (lo >> (level + 1)), ivec2(3)))) ++level;
-    ivec2 last_texel = textureSize(pyramid, level) - 1;
+    // Not textureSize(pyramid, level): llvmpipe takes one invocation's level for all.
+    ivec2 last_texel = max(textureSize(pyramid, 0) >> level, ivec2(1)) - 1;
     lo = min(lo >> (level + 1), last_texel);
     hi = min(hi >> (level + 1), last_texel);
     float farthest = 1.0;

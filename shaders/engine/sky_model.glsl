@@ -23,7 +23,7 @@ float sky_mie_extinction() { return 4.440e-3f * SKY_MIE_TURBIDITY; }
 vec3 sky_ozone() { return 15.0f * vec3(1.3e-3f, 1.881e-3f, 0.1e-3f); }
 
 // Air mass of an exponential atmosphere: optical depth to infinity over the vertical one, for x = radius / scale height
-// and the cosine to the zenith (Schueler 2012, "An Approximation to the Chapman Grazing-Incidence Function").
+// and the cosine to the zenith (Schueler 2012, "An Approximation to the Chapman Grazing-Incidence Function"). Within 16%, worst near 1 degree.
 float sky_chapman(float x, float cosine) {
     float c = sqrt(0.5f * SKY_PI * x);
     if (cosine >= 0.0f) {
