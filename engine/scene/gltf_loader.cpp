@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <numbers>
 
 #include "engine/scene/gltf_parts.h"
 #include "engine/scene/mesh_build.h"
@@ -9,7 +11,17 @@ namespace {
 
 using gltf::GltfFile;
 
+/// Shows a white surface that the sun meets head on, or without a sun a luminance of 1, as 1/1.2.
+float default_exposure(const Scene& scene) {
+    const auto sun = scene.sun();
+    if (!sun) return 0;
+    const glm::vec3& lux = scene.lights[*sun].intensity;
+    const float brightest = std::max({lux.r, lux.g, lux.b});
+    return brightest > 0 ? std::log2(brightest / std::numbers::pi_v<float>) : 0.0f;
+}
+
 void load_scene_extras(const GltfFile& file, Scene& scene) {
+    scene.exposure_ev100 = default_exposure(scene);
     if (file.model().scenes.empty()) return;
     const auto index = static_cast<std::size_t>(std::max(file.model().defaultScene, 0));
     const gltf::Json extra = file.extras(file.model().scenes[index]);

@@ -124,8 +124,9 @@ struct Scene {
     std::vector<Camera> cameras;
     std::vector<Animation> animations;
     std::vector<Medium> media;  ///< scene extras.media
-    float exposure_ev100 = 0;   ///< scene extras.exposure; 0: L = 1 maps to 1/1.2
-    Aabb bounds;                ///< world, of all meshes at time 0
+    float exposure_ev100 =
+        0;        ///< scene extras.exposure, or what suits its sun: a luminance of 1.2 * 2^EV shows as 1
+    Aabb bounds;  ///< world, of all meshes at time 0
 
     [[nodiscard]] const Camera* find_camera(const std::string& name) const;
     [[nodiscard]] const Animation* find_animation(const std::string& name) const;

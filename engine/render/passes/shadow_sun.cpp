@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/shadows.h"
 
@@ -18,6 +20,20 @@ gl::TextureDesc map_desc(gl::TextureKind kind, int size, int layers) {
 
 void ensure(gl::Texture& texture, const gl::TextureDesc& desc, const char* label) {
     if (!texture || texture.desc() != desc) texture = gl::Texture(desc, label);
+}
+
+/// What the baked map covers: everything that stands still, without the backdrop of hills and plains, which would
+/// make its texels metres wide; where there is nothing else, those.
+Aabb static_bounds(std::span<const Instance> instances, const Aabb& all) {
+    constexpr float backdrop = 300;  // m, the longest edge of what is not
+    Aabb bounds;
+    for (const Instance& instance : instances) {
+        const glm::vec3 size = instance.bounds.max - instance.bounds.min;
+        if (instance.dynamic || std::max({size.x, size.y, size.z}) > backdrop) continue;
+        bounds.add(instance.bounds.min);
+        bounds.add(instance.bounds.max);
+    }
+    return bounds.empty() ? all : bounds;
 }
 
 }  // namespace
@@ -56,7 +72,8 @@ void ShadowSunPass::fit(FrameContext& context, glm::vec3 direction) {
         frame.sun_cascade_far[i] = ends[i];
         frame.sun_texel[i] = maps_[i].fit.texel;
     }
-    const SunMap all = fit_static(context.scene.bounds, direction, settings.static_shadow_size);
+    const SunMap all = fit_static(static_bounds(context.gpu.instances(), context.scene.bounds), direction,
+                                  settings.static_shadow_size);
     maps_[static_map].fit = all;
     frame.sun_static = all.world_to_texture;
     frame.sun_static_texel = glm::vec4(all.texel, 1.0f / static_cast<float>(settings.cascade_size),
