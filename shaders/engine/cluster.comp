@@ -1,5 +1,5 @@
-// Lists of the lamps that reach each cluster, in the order of the light list. One invocation a cluster counts, takes its
-// part of the pool and writes: only where a list lies in the pool depends on scheduling, never what it holds.
+// Lists of the lamps that reach each cluster, in the order of the light list. One invocation a cluster counts, takes
+// its part of the pool and writes: only where a list lies in the pool depends on scheduling, never what it holds.
 #include "shaders/engine/frame_block.glsl"
 #include "shaders/engine/light_reach.glsl"
 #include "shaders/engine/visible_lights.glsl"

@@ -16,6 +16,7 @@ void main() {
     ivec2 end = mix(min(2 * p + 1, last), last, equal(p, size - 1));
     float farthest = 1.0;
     for (int y = 2 * p.y; y <= end.y; ++y)
-        for (int x = 2 * p.x; x <= end.x; ++x) farthest = min(farthest, texelFetch(source, ivec2(x, y), source_level).r);
+        for (int x = 2 * p.x; x <= end.x; ++x)
+            farthest = min(farthest, texelFetch(source, ivec2(x, y), source_level).r);
     imageStore(destination, p, vec4(farthest));
 }

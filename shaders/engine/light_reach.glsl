@@ -31,8 +31,8 @@ bool cone_meets_sphere(vec3 apex, vec3 axis, float range, float cosine, vec3 cen
     return outside <= radius && along <= range + radius && (cosine < 0.0f || along >= -radius);
 }
 
-// What a sphere (view space: x right, y up, -z forward) covers of the screen, in NDC, and of view depth (m). lo > hi in
-// neither: a sphere around the eye covers all. tan_half_fov: of half the horizontal and half the vertical field of view.
+// What a sphere (view space: x right, y up, -z forward) covers of the screen, in NDC, and of view depth (m); a sphere
+// around the eye covers all of the screen. tan_half_fov: of half the horizontal and half the vertical field of view.
 struct ScreenBounds {
     vec2 lo;
     vec2 hi;

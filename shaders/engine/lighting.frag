@@ -95,7 +95,7 @@ vec3 lamp_light(Surface s) {
 #if HAS_AMBIENT
 // The mip that blurs the sky about as much as the lobe: with a box filter each level doubles the angle a texel spans.
 vec3 ambient_light(Surface s) {
-    float n_dot_v = clamp(dot(s.normal, s.to_eye), 0.0, 1.0);
+    float n_dot_v = min(abs(dot(s.normal, s.to_eye)), 1.0);
     vec3 f0 = mix(vec3(BRDF_DIELECTRIC_F0), s.base_color, s.metallic);
     vec2 scale = specular_albedo_scale(s.roughness, n_dot_v);
     vec3 specular = f0 * scale.x + scale.y;

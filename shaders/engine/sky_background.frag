@@ -58,8 +58,8 @@ void main() {
         vec3 cloud = sunlight * (0.055 + 0.16 * pow(forward, 12.0)) + 0.55 * radiance;
         radiance = mix(radiance, cloud, cirrus(d));
     }
-    // The disc's radiance is its illuminance over its solid angle, darkened to the limb (1 - 0.6 (1 - cos)), which takes
-    // a fifth off the mean; half floats and the tonemap need no more than 60000.
+    // The disc's radiance is its illuminance over its solid angle, darkened to the limb (1 - 0.6 (1 - cos)), which
+    // takes a fifth off the mean; half floats and the tonemap need no more than 60000.
     float from_center = length(d - to_sun) / SUN_RADIUS;
     float edge = max(fwidth(from_center), 1e-4);
     float disc = clamp((1.0 - from_center) / edge + 0.5, 0.0, 1.0) * step(0.0, d.y);

@@ -12,7 +12,7 @@ const float SKY_RAYLEIGH_HEIGHT = 8.0f;
 const float SKY_MIE_HEIGHT = 1.2f;
 const float SKY_MIE_G = 0.76f;
 const float SKY_MIE_TURBIDITY = 2.2f;  // haze, in units of clean air's
-const float SKY_MULTIPLE = 1.0f;  // scattered more than once, over what is scattered once
+const float SKY_MULTIPLE = 1.3f;  // scattered more than once, over what is scattered once
 const int SKY_STEPS = 20;
 
 // At sea level, per km; red, green, blue stand for 650, 550 and 445 nm.
@@ -22,8 +22,11 @@ float sky_mie_extinction() { return 4.440e-3f * SKY_MIE_TURBIDITY; }
 // Ozone, vertical optical depth of the whole layer (15 km at its densest), as a shell at 25 km.
 vec3 sky_ozone() { return 15.0f * vec3(1.3e-3f, 1.881e-3f, 0.1e-3f); }
 
+vec3 sky_ground_albedo() { return vec3(0.20f, 0.18f, 0.14f); }
+
 // Air mass of an exponential atmosphere: optical depth to infinity over the vertical one, for x = radius / scale height
-// and the cosine to the zenith (Schueler 2012, "An Approximation to the Chapman Grazing-Incidence Function"). Within 16%, worst near 1 degree.
+// and the cosine to the zenith (Schueler 2012, "An Approximation to the Chapman Grazing-Incidence
+// Function"). Within 16%, worst near 1 degree.
 float sky_chapman(float x, float cosine) {
     float c = sqrt(0.5f * SKY_PI * x);
     if (cosine >= 0.0f) {
@@ -112,8 +115,10 @@ vec3 sky_radiance(vec3 d, vec3 sun, float illuminance) {
         t = next;
     }
     if (ground > 0.0f) {
-        vec3 lit = sky_transmittance(SKY_GROUND, sun.y) * max(sun.y, 0.0f) + vec3(0.05f, 0.06f, 0.08f) * smoothstep(-0.1f, 0.3f, sun.y);
-        radiance += transmittance * vec3(0.16f, 0.14f, 0.11f) * lit / SKY_PI;
+        // Its illuminance by the sun and, roughly, by the sky, over the sun's outside the air.
+        vec3 lit = sky_transmittance(SKY_GROUND, sun.y) * max(sun.y, 0.0f) +
+                   vec3(0.05f, 0.06f, 0.08f) * smoothstep(-0.1f, 0.3f, sun.y);
+        radiance += transmittance * sky_ground_albedo() * lit / SKY_PI;
     }
     return radiance * sky_extraterrestrial(illuminance, sun.y);
 }

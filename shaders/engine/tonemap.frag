@@ -8,7 +8,8 @@ layout(binding = 0) uniform sampler2D color;
 // Bayer's 8 x 8 matrix as (0.5 .. 63.5) / 64 by interleaving the bits of x ^ y and y.
 float bayer(uvec2 p) {
     uint x = p.x ^ p.y;
-    uint v = ((x & 1u) << 5) | ((p.y & 1u) << 4) | ((x & 2u) << 2) | ((p.y & 2u) << 1) | ((x & 4u) >> 1) | ((p.y & 4u) >> 2);
+    uint v = ((x & 1u) << 5) | ((p.y & 1u) << 4) | ((x & 2u) << 2) | ((p.y & 2u) << 1) | ((x & 4u) >> 1) |
+             ((p.y & 4u) >> 2);
     return (float(v) + 0.5) / 64.0;
 }
 

@@ -40,10 +40,11 @@ float visibility_smith(float n_dot_l, float n_dot_v, float alpha) {
     return 0.5f / max(masking + shadowing, 1.0e-7f);
 }
 
-// f(l, v) [1/sr], without the cosine: reflected radiance = f * (n.l) * illuminance. 0 below the horizon of l; for v
-// the horizon itself is taken, since interpolated normals may turn away from the eye. As in the appendix, the diffuse part
-// does not know how much the specular one took in all: a white dielectric seen at cos 0.05 reflects 1.03 times what
-// it receives at roughness 0.8, 1.7 times at 0.05; metals, and anything seen from above 45 degrees, never more than 1.
+// f(l, v) [1/sr], without the cosine: reflected radiance = f * (n.l) * illuminance. 0 below the horizon of l; of v the
+// side does not count, since interpolated and bent normals may turn away from the eye. As in the appendix, the diffuse
+// part does not know how much the specular one took in all: a white dielectric seen at cos 0.05 reflects 1.03 times
+// what it receives at roughness 0.8, 1.7 times at 0.05; metals, and anything seen from above 45 degrees, never more
+// than 1.
 vec3 brdf_metallic_roughness(vec3 base_color, float metallic, float roughness, vec3 n, vec3 v, vec3 l) {
     float n_dot_l = dot(n, l);
     if (n_dot_l <= 0.0f) {
@@ -51,7 +52,7 @@ vec3 brdf_metallic_roughness(vec3 base_color, float metallic, float roughness, v
     }
     vec3 h = normalize(l + v);
     float alpha = brdf_alpha(roughness);
-    float n_dot_v = max(dot(n, v), 1.0e-4f);
+    float n_dot_v = max(abs(dot(n, v)), 1.0e-4f);
     vec3 f0 = mix(vec3(BRDF_DIELECTRIC_F0), base_color, metallic);
     vec3 fresnel = fresnel_schlick(f0, dot(v, h));
     vec3 diffuse = (1.0f - fresnel) * base_color * ((1.0f - metallic) / BRDF_PI);
@@ -59,8 +60,8 @@ vec3 brdf_metallic_roughness(vec3 base_color, float metallic, float roughness, v
     return diffuse + fresnel * specular;
 }
 
-// Directional albedo of the specular lobe, int f_specular (n.l) dl = f0 * x + y: the split sum of Karis 2013 ("Real Shading
-// in Unreal Engine 4"), fitted to this file's lobe for n.v >= 1/8; maximal errors of x + y 0.045, of y 0.025.
+// Directional albedo of the specular lobe, int f_specular (n.l) dl = f0 * x + y: the split sum of Karis 2013 ("Real
+// Shading in Unreal Engine 4"), fitted to this file's lobe for n.v >= 1/8; maximal errors of x + y 0.045, of y 0.025.
 vec2 specular_albedo_scale(float roughness, float n_dot_v) {
     float r = roughness;
     float c = n_dot_v;
