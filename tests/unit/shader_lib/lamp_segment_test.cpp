@@ -147,7 +147,7 @@ TEST(LampSegment, IntegralMatchesQuadrature) {
             // The rounding of the window is absolute: 1e-6 of the light without it.
             const double sphere = with_range ? std::pow(c.lamp.radius / c.lamp.range, 4) / 4.0 : 0.0;
             const double tolerance =
-                (6e-6 + sphere) * expected + 1e-6 * (with_range ? unlimited.integral(c.a, c.b) : 0.0);
+                (1e-5 + sphere) * expected + 1e-6 * (with_range ? unlimited.integral(c.a, c.b) : 0.0);
             ASSERT_NEAR(glsl::lamp_segment_integral(c.lamp.segment(c.a, c.b)), expected, tolerance) << describe(c);
         }
     }
@@ -189,7 +189,7 @@ TEST(LampSegment, IsAdditive) {
 
 TEST(LampSegment, MeanPointMatchesQuadrature) {
     std::mt19937 random(11);
-    for (int i = 0; i < 5000; ++i) {
+    for (int i = 0; i < 250; ++i) {
         const Case c = random_case(random, false);
         const double from_a = c.lamp.integral(c.a, c.b, [&](double t) { return t - c.a; });
         const double expected = from_a / c.lamp.integral(c.a, c.b);
@@ -206,7 +206,7 @@ TEST(LampSegment, NodesLieInsideAndWeightsAreNotNegative) {
         const glsl::LampSegment s = c.lamp.segment(c.a, c.b);
         for (int k = 0; k < 4; ++k) {
             ASSERT_TRUE(s.weight[k] >= 0.0f && std::isfinite(s.weight[k])) << describe(c);
-            ASSERT_TRUE(c.a <= s.t[k] && s.t[k] <= c.b) << describe(c);
+            ASSERT_TRUE(static_cast<float>(c.a) <= s.t[k] && s.t[k] <= static_cast<float>(c.b)) << describe(c);
             ASSERT_TRUE(k == 0 || s.t[k - 1] <= s.t[k]) << describe(c);
         }
     }
