@@ -1,5 +1,5 @@
 // A clear sky, as single scattering in an exponential Rayleigh and Mie atmosphere with an ozone shell over a round
-// earth (the constants are those of Bruneton and Neyret 2008 and Hillaire 2020), plus an isotropic estimate of what is
+// earth (the constants follow Bruneton and Neyret 2008 and Hillaire 2020), plus an isotropic estimate of what is
 // scattered more than once. Lengths in km. In the subset of GLSL that C++ compiles too (shaders/lib/glm_subset.h).
 #ifndef ENGINE_SKY_MODEL_GLSL
 #define ENGINE_SKY_MODEL_GLSL
