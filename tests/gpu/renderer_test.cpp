@@ -250,6 +250,19 @@ TEST_F(RendererTest, CountsLightEvaluationsPerLamp) {
     EXPECT_EQ(evaluations(), 2u * 96u * 64u);
 }
 
+TEST_F(RendererTest, EveryPermutationOfTheEngineBuilds) {
+    Names seen;
+    for (const ProgramDesc* desc : ProgramRegistry::all()) {
+        if (desc->name.starts_with("volumetrics")) continue;  // the module has a test of its own
+        seen.insert(desc->name);
+        for (const Permutation& permutation : all_permutations(*desc))
+            EXPECT_TRUE(shaders_.get(*desc, permutation)) << desc->name;
+    }
+    for (const char* name : {"gbuffer", "depth_pyramid", "light_cull", "cluster", "lighting", "sky/cube",
+                             "sky/irradiance", "sky/background", "tonemap"})
+        EXPECT_TRUE(seen.contains(name)) << name;
+}
+
 TEST_F(RendererTest, MirroredInstancesShowTheirOutside) {
     options_.layer = "normal";
     draw();
