@@ -29,7 +29,7 @@ Mesh arcade_bay(const std::string& name, bool ruin, uint32_t seed) {
     Opening arch = arcade.openings[0];
     std::ranges::fill(arch.lower, 4.2f);  // mouldings only round the arch, not down the piers
     archivolt(m, Mat::Trim, arcade, arch, 0.42f, 0.10f, 1);
-    archivolt(m, Mat::Trim, arcade, arch, 0.24f, 0.19f, 1, 0.06f);
+    archivolt(m, Mat::Trim, arcade, arch, 0.24f, 0.19f, 1, 0.03f);
     archivolt(m, Mat::Trim, arcade, arch, 0.36f, 0.10f, -1);
     Wall clerestory{{-kBay / 2, 8.0f, 0}, {1, 0, 0}, kBay, kEave - 8.0f, 0.9f, {}, {}, 0.55f};
     if (ruin) {
@@ -126,7 +126,7 @@ Mesh aisle_bay(const std::string& name, bool door, bool ruined) {
     wall(m, Mat::Ashlar, w);
     for (const float side : {1.0f, -1.0f}) archivolt(m, Mat::Trim, w, w.openings[0], 0.24f, 0.10f, side);
     if (!door) {  // sill, mullion and cusps
-        chamfered_box(m, Mat::Trim, {-1.45f, 1.52f, -0.5f}, {1.45f, 1.70f, 0.52f}, 0.05f);
+        chamfered_box(m, Mat::Trim, {-1.45f, 1.52f, -0.5f}, {1.45f, 1.73f, 0.52f}, 0.05f);
         sweep(m, Mat::Trim, std::array{vec3(0, 1.7f, 0), vec3(0, 5.0f, 0)}, chamfered_section(0.15f, 0.22f, 0.05f),
               {0, 0, 1});
         for (const float s : {-1.0f, 1.0f}) {
@@ -201,11 +201,11 @@ Mesh nave_roof(bool whole) {  // over one bay, ridge along x
 
 void floors(Level& level) {
     Mesh m{"abbey_floor", {}, mat4(1.0f)};
-    m.quad(Mat::Flags, {-44.2f, 0, kAisle + 0.2f}, {0.62f, 0, kAisle + 0.2f}, {0.62f, 0, -kAisle - 0.2f},
+    m.quad(Mat::Flags, {-44.2f, 0, kAisle + 0.2f}, {0.2f, 0, kAisle + 0.2f}, {0.2f, 0, -kAisle - 0.2f},
            {-44.2f, 0, -kAisle - 0.2f});
     // Foundations, seen from the court and the valley.
     for (const float s : {-1.0f, 1.0f}) {
-        box(m, Mat::Ashlar, {-45.4f, -14.0f, std::min(s * 8.9f, s * 10.3f)},
+        box(m, Mat::Ashlar, {-45.46f, -14.0f, std::min(s * 8.9f, s * 10.3f)},
             {0.4f, -0.02f, std::max(s * 8.9f, s * 10.3f)}, kBottom);
         sweep(m, Mat::Trim, std::array{vec3(-45.5f, -0.16f, s * 10.3f), vec3(0.3f, -0.16f, s * 10.3f)},
               chamfered_section(0.24f, 0.22f, 0.08f), {0, 1, 0});

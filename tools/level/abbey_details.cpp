@@ -33,9 +33,9 @@ void west_window(Mesh& m) {
     wall(m, Mat::Ashlar, w);
     for (const float side : {1.0f, -1.0f}) {
         archivolt(m, Mat::Trim, w, w.openings[0], 0.5f, 0.10f, side);
-        archivolt(m, Mat::Trim, w, w.openings[0], 0.28f, 0.20f, side, 0.06f);
+        archivolt(m, Mat::Trim, w, w.openings[0], 0.28f, 0.20f, side, 0.03f);
     }
-    chamfered_box(m, Mat::Trim, {x - 0.75f, 2.75f, -3.4f}, {x + 0.8f, 3.0f, 3.4f}, 0.08f);
+    chamfered_box(m, Mat::Trim, {x - 0.75f, 2.75f, -3.4f}, {x + 0.8f, 3.04f, 3.4f}, 0.08f);
     // Tracery: three mullions, four lights, two sub-arches and a wheel.
     const auto thick = chamfered_section(0.24f, 0.34f, 0.08f), thin = chamfered_section(0.15f, 0.24f, 0.05f);
     sweep(m, Mat::Trim, std::array{vec3(x, 2.9f, 0), vec3(x, 9.3f, 0)}, thick, {1, 0, 0});
@@ -76,10 +76,10 @@ void facade(Mesh& m) {
     Wall low{{0, 0, 5.3f}, {0, 0, -1}, 10.6f, 7.0f, 1.2f, {}};
     low.openings = {pointed_opening(5.3f, 3.2f, 0.0f, 3.1f, 7)};
     wall(m, Mat::Ashlar, low);
-    archivolt(m, Mat::Trim, low, low.openings[0], 1.25f, 0.14f, 1, 0.03f);
-    archivolt(m, Mat::Trim, low, low.openings[0], 0.95f, 0.28f, 1, 0.05f);
-    archivolt(m, Mat::Trim, low, low.openings[0], 0.62f, 0.42f, 1, 0.07f);
-    archivolt(m, Mat::Trim, low, low.openings[0], 0.30f, 0.56f, 1, 0.09f);
+    archivolt(m, Mat::Trim, low, low.openings[0], 1.25f, 0.14f, 1, 0.02f);
+    archivolt(m, Mat::Trim, low, low.openings[0], 0.95f, 0.28f, 1, 0.03f);
+    archivolt(m, Mat::Trim, low, low.openings[0], 0.62f, 0.42f, 1, 0.04f);
+    archivolt(m, Mat::Trim, low, low.openings[0], 0.30f, 0.56f, 1, 0.05f);
     archivolt(m, Mat::Trim, low, low.openings[0], 0.40f, 0.10f, -1);
     for (const float s : {-1.0f, 1.0f}) {
         for (int i = 0; i < 3; ++i) {
@@ -101,8 +101,8 @@ void facade(Mesh& m) {
     high.top = [](float u) { return 8.0f + std::max(0.0f, 5.3f - std::abs(u - 5.3f)) * 1.32f; };
     high.openings = {circle_opening(5.3f, 4.0f, 2.75f, 16)};
     wall(m, Mat::Ashlar, high);
-    archivolt(m, Mat::Trim, high, high.openings[0], 0.55f, 0.14f, 1, 0.03f);
-    archivolt(m, Mat::Trim, high, high.openings[0], 0.30f, 0.26f, 1, 0.06f);
+    archivolt(m, Mat::Trim, high, high.openings[0], 0.55f, 0.14f, 1, 0.02f);
+    archivolt(m, Mat::Trim, high, high.openings[0], 0.30f, 0.26f, 1, 0.03f);
     archivolt(m, Mat::Trim, high, high.openings[0], 0.30f, 0.10f, -1);
     const auto thick = chamfered_section(0.24f, 0.34f, 0.08f), thin = chamfered_section(0.15f, 0.24f, 0.05f);
     ring(m, 0, 11.0f, 0, 0.62f, 16, thick);
@@ -118,7 +118,7 @@ void facade(Mesh& m) {
     sweep(m, Mat::Trim, std::array{vec3(0.58f, 7.05f, 5.3f), vec3(0.58f, 7.05f, -5.3f)},
           chamfered_section(0.36f, 0.30f, 0.10f), {0, 1, 0});
     for (const float s : {-1.0f, 1.0f}) {  // coping of the gable
-        beam(m, Mat::Trim, {0, 15.0f, s * 5.5f}, {0, 22.1f, 0}, 1.3f, 0.26f);
+        beam(m, Mat::Trim, {0, 15.0f, s * 5.5f}, {0, 22.1f, 0}, s > 0 ? 1.3f : 1.27f, 0.26f);
         Wall end{{-0.05f, 0, s > 0 ? 10.2f : -5.2f}, {0, 0, -1}, 5.0f, 9.4f, 1.0f, {}};
         wall(m, Mat::Ashlar, end);
     }
@@ -134,7 +134,7 @@ void tower_walls(Mesh& m, vec3 c, float half, float low, float high, const std::
         const vec3 along[4]{{1, 0, 0}, {0, 0, -1}, {-1, 0, 0}, {0, 0, 1}};
         const vec3 out = glm::cross(along[i], vec3(0, 1, 0));
         // Opposite walls run the full side, the others fit between them.
-        const float length = i % 2 ? 2 * half - 0.9f : 2 * half;
+        const float length = i % 2 ? 2 * half - 1.8f : 2 * half;
         Wall w{c + out * (half - 0.45f) - along[i] * (length / 2) + vec3(0, low, 0),
                along[i],
                length,
@@ -199,11 +199,10 @@ void broken_tower(Mesh& m) {
 // From the door in the south aisle down fifteen steps and out into the court.
 void passage(Mesh& m) {
     steps(m, Mat::Flags, {-19.6f, -3.0f, 11.2f}, {1, 0, 0}, 2.6f, 15, 0.2f, 0.32f, -5.0f);
-    m.quad(Mat::Flags, {-24.2f, -3.0f, 13.0f}, {-19.6f, -3.0f, 13.0f}, {-19.6f, -3.0f, 10.0f},
-           {-24.2f, -3.0f, 10.0f});
+
     m.quad(Mat::Flags, {-14.8f, 0, 12.5f}, {-12.3f, 0, 12.5f}, {-12.3f, 0, 9.7f}, {-14.8f, 0, 9.7f});
     Wall south{{-24.6f, -6.0f, 12.7f}, {1, 0, 0}, 12.8f, 9.88f, 0.6f, {}};
-    south.openings = {pointed_opening(2.2f, 1.4f, 3.0f, 4.9f, 5), pointed_opening(7.2f, 0.5f, 4.6f, 5.6f, 3),
+    south.openings = {pointed_opening(2.2f, 1.4f, 2.95f, 4.9f, 5), pointed_opening(7.2f, 0.5f, 4.6f, 5.6f, 3),
                       pointed_opening(10.9f, 0.55f, 6.9f, 8.0f, 3)};
     wall(m, Mat::Rubble, south);
     for (const float side : {1.0f, -1.0f}) archivolt(m, Mat::Trim, south, south.openings[0], 0.26f, 0.08f, side);
@@ -230,7 +229,7 @@ void passage(Mesh& m) {
         }
     }
     m.grid(Mat::Rubble, segments + 1, 4, v);
-    for (const vec2 p : {vec2(-21.2f, -0.6f), vec2(-14.75f, 2.4f)}) {  // stone ribs under the vault
+    for (const vec2 p : {vec2(-19.9f, -0.6f), vec2(-14.75f, 2.4f)}) {  // stone ribs under the vault
         std::vector<vec3> rib{{p.x, p.y - 2.4f, 11.15f + 1.20f}};
         for (int s = 0; s <= segments; ++s) {
             const float a = kPi * static_cast<float>(s) / segments;
@@ -301,17 +300,16 @@ void furnish(Level& level, const Lamps& lamps, const Props& props) {
             beam(chains, Mat::Iron, {x, 5.4f, z}, {x, 17.4f, z}, 0.03f, 0.03f);
             hang_lantern(level, lamps, {x, 5.42f, z}, 160.0f);
         }
-        beam(chains, Mat::Timber, {x, 17.4f, -2.9f}, {x, 17.4f, 2.9f}, 0.22f, 0.24f);
     }
     level.add_static(std::move(chains));
     // Passage.
-    wall_lantern(level, lamps, {-23.98f, -0.95f, 11.2f}, 90.0f, 60.0f);
+    wall_lantern(level, lamps, {-23.98f, -0.95f, 11.2f}, 90.0f, 110.0f);
     wall_lantern(level, lamps, {-17.3f, 0.55f, 12.38f}, 180.0f, 45.0f);
     wall_lantern(level, lamps, {-12.38f, 2.0f, 11.2f}, -90.0f, 60.0f);
     level.add_instance("barrel", props.barrel, {-23.5f, -3.0f, 10.72f}, 20.0f);
     level.add_instance("barrel", props.barrel, {-22.75f, -3.0f, 10.70f}, 75.0f, 0.95f);
     level.add_instance("crate", props.crate, {-20.9f, -3.0f, 10.75f}, 12.0f, 0.9f);
-    candle_stand(level, lamps, {-23.55f, -3.0f, 12.05f}, 45.0f);
+    candle_stand(level, lamps, {-23.55f, -3.0f, 12.05f}, 70.0f);
 }
 
 }  // namespace

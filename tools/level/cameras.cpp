@@ -17,7 +17,7 @@ struct Place {
 std::vector<Place> places() {
     return {
         {"LocalPM", 60.0f, {{-8.6f, 1.75f, -2.4f}, 99.0f, 9.0f}},
-        {"Close", 62.0f, {{-20.3f, -1.35f, 11.35f}, 93.0f, -6.0f}},
+        {"Close", 62.0f, {{-20.5f, -1.4f, 11.05f}, 96.0f, -7.0f}},
         {"LocalLights", 58.0f, {{100.0f, street_height(100.0f) + 2.5f, 0.7f}, 90.0f, 5.0f}},
         {"Sun", 60.0f, {{-11.0f, -1.3f, 24.4f}, 125.0f, 14.0f}},
         {"Depth", 60.0f, {{-53.8f, -1.25f, 70.3f}, 47.0f, -5.0f}},

@@ -64,7 +64,8 @@ Mesh loggia_bay() {
         const bool west = x == 0.0f;
         Wall w{{x, west ? -1.0f : -0.4f, 0}, {0, 0, 1}, length, west ? 5.4f : 4.8f, 0.5f, {}, {}, 0.8f, true};
         const float floor = west ? 1.0f : 0.4f;
-        w.openings = {round_opening(length / 2, length - 0.9f, west ? floor + 0.95f : floor, floor + 2.35f, 5)};
+        w.openings = {
+            round_opening(length / 2, length - 0.9f, west ? floor + 0.95f : floor - 0.05f, floor + 2.35f, 5)};
         wall(m, Mat::Ashlar, w);
         Opening arch = w.openings[0];
         std::ranges::fill(arch.lower, floor + 2.35f);
@@ -153,9 +154,9 @@ void dormitory(Level& level, const Lamps& lamps, const Props& props) {
 
 void lower_yard(Level& level, const Lamps& lamps, const Props& props) {
     Mesh m{"lower_yard", {}, mat4(1.0f)};
-    steps(m, Mat::Flags, {5.0f, kCourt, 19.9f}, {0, 0, -1}, 3.2f, 12, 0.2f, 0.34f, kCourt - 1.0f);
+    steps(m, Mat::Flags, {5.0f, kCourt, 19.87f}, {0, 0, -1}, 3.2f, 12, 0.2f, 0.34f, kCourt - 1.0f);
     Wall west{{0.55f, -6.0f, 17.5f}, {0, 0, 1}, 9.3f, 6.6f, 0.8f, {}};
-    west.openings = {round_opening(4.6f, 2.8f, 3.0f, 4.7f, 6)};
+    west.openings = {round_opening(4.6f, 2.8f, 2.95f, 4.7f, 6)};
     wall(m, Mat::Rubble, west);
     for (const float side : {1.0f, -1.0f}) archivolt(m, Mat::Trim, west, west.openings[0], 0.3f, 0.1f, side);
     chamfered_box(m, Mat::Trim, {0.0f, 0.58f, 17.4f}, {1.1f, 0.82f, 26.75f}, 0.06f);
@@ -177,7 +178,8 @@ void lower_yard(Level& level, const Lamps& lamps, const Props& props) {
     level.add_instance("crate", props.crate, {11.7f, kCourt, 24.9f}, 10.0f);
 }
 
-void balustrade(Level& level, Mesh& m, const Props& props, vec3 a, vec3 b) {
+// The pedestal at `a` is left to a balustrade that ends there when `joined`.
+void balustrade(Level& level, Mesh& m, const Props& props, vec3 a, vec3 b, bool joined) {
     const vec3 along = glm::normalize(b - a);
     const float length = glm::length(b - a);
     const int bays = std::max(1, static_cast<int>(std::round(length / 3.6f)));
@@ -186,7 +188,7 @@ void balustrade(Level& level, Mesh& m, const Props& props, vec3 a, vec3 b) {
           chamfered_section(0.40f, 0.20f, 0.03f), {0, 1, 0});
     sweep(m, Mat::Trim, std::array{a + vec3(0, 0.98f, 0), b + vec3(0, 0.98f, 0)},
           chamfered_section(0.38f, 0.16f, 0.04f), {0, 1, 0});
-    for (int i = 0; i <= bays; ++i) {
+    for (int i = joined ? 1 : 0; i <= bays; ++i) {
         const vec3 p = a + along * bay * static_cast<float>(i);
         chamfered_box(m, Mat::Trim, p + vec3(-0.27f, -0.1f, -0.27f), p + vec3(0.27f, 1.16f, 0.27f), 0.03f);
         chamfered_box(m, Mat::Trim, p + vec3(-0.33f, 1.14f, -0.33f), p + vec3(0.33f, 1.26f, 0.33f), 0.03f);
@@ -220,8 +222,8 @@ Mesh column_mesh(const std::string& name, float height) {
 
 void belvedere(Level& level, const Lamps& lamps, const Props& props) {
     Mesh m{"belvedere", {}, mat4(1.0f)};
-    balustrade(level, m, props, {-55.7f, kCourt, 62.3f}, {-45.7f, kCourt, 62.3f});
-    balustrade(level, m, props, {-55.7f, kCourt, 75.7f}, {-55.7f, kCourt, 62.3f});
+    balustrade(level, m, props, {-55.7f, kCourt, 62.3f}, {-45.7f, kCourt, 62.3f}, true);
+    balustrade(level, m, props, {-55.7f, kCourt, 75.7f}, {-55.7f, kCourt, 62.3f}, false);
     Wall south{{-55.7f, kCourt - 0.5f, 75.8f}, {1, 0, 0}, 43.7f, 1.45f, 0.5f, {}};
     wall(m, Mat::Rubble, south);
     chamfered_box(m, Mat::Trim, {-55.3f, kCourt + 0.92f, 75.45f}, {-12.0f, kCourt + 1.08f, 76.15f}, 0.04f);

@@ -11,8 +11,8 @@ constexpr float kGroundFloor = 3.0f, kUpperFloor = 2.6f, kJetty = 0.32f, kSunk =
 // Timber casement on a wall in the plane z: centre x, sill y.
 void casement(Mesh& m, float x, float y, float width, float height, float z) {
     const float l = x - width / 2, r = x + width / 2;
-    m.quad(Mat::Window, {l, y, z + 0.015f}, {r, y, z + 0.015f}, {r, y + height, z + 0.015f},
-           {l, y + height, z + 0.015f});
+    m.quad(Mat::Window, {l, y, z + 0.019f}, {r, y, z + 0.019f}, {r, y + height, z + 0.019f},
+           {l, y + height, z + 0.019f});
     beam(m, Mat::Timber, {l - 0.06f, y - 0.05f, z + 0.03f}, {r + 0.06f, y - 0.05f, z + 0.03f}, 0.22f, 0.10f);
     beam(m, Mat::Timber, {l - 0.06f, y + height + 0.05f, z + 0.02f}, {r + 0.06f, y + height + 0.05f, z + 0.02f},
          0.14f, 0.10f, {0, 1, 0}, false);
@@ -28,7 +28,7 @@ void ground_floor(Mesh& m, const HouseStyle& s, Random& random) {
     const bool door_left = random.unit() < 0.5f;
     const float door_u = door_left ? 1.15f : s.width - 1.15f,
                 window_u = door_left ? 0.5f * s.width + 0.95f : 0.5f * s.width - 0.95f;
-    Wall front{{-half, -kSunk, -0.2f}, {1, 0, 0}, s.width, kGroundFloor + kSunk, 0.4f, {}, {}, 0.8f, true};
+    Wall front{{-half, -kSunk, -0.2f}, {1, 0, 0}, s.width, kGroundFloor + kSunk, 0.4f, {}};
     const Opening door = round_opening(door_u, 1.15f, kSunk, kSunk + 1.85f, 5);
     const Opening window = rectangle_opening(window_u, 1.9f, kSunk + 0.95f, kSunk + 2.25f);
     front.openings = door_left ? std::vector{door, window} : std::vector{window, door};
@@ -45,8 +45,8 @@ void ground_floor(Mesh& m, const HouseStyle& s, Random& random) {
            {wx - 1.0f, 2.3f, -0.25f});
     for (const float x : {-0.48f, 0.0f, 0.48f})
         beam(m, Mat::Timber, {wx + x, 0.95f, -0.2f}, {wx + x, 2.25f, -0.2f}, 0.07f, 0.08f);
-    chamfered_box(m, Mat::Trim, {wx - 1.15f, 0.80f, -0.3f}, {wx + 1.15f, 0.95f, 0.08f}, 0.025f);
-    beam(m, Mat::Timber, {wx - 1.2f, 2.36f, -0.02f}, {wx + 1.2f, 2.36f, -0.02f}, 0.14f, 0.22f);
+    chamfered_box(m, Mat::Trim, {wx - 1.15f, 0.80f, -0.3f}, {wx + 1.15f, 0.97f, 0.08f}, 0.025f);
+    beam(m, Mat::Timber, {wx - 1.2f, 2.33f, -0.02f}, {wx + 1.2f, 2.33f, -0.02f}, 0.14f, 0.22f);
     for (const float side : {-1.0f, 1.0f}) {  // open shutters
         const float x = wx + side * 1.28f;
         box(m, Mat::Planks, {x - 0.26f, 0.98f, 0.0f}, {x + 0.26f, 2.22f, 0.05f}, kBack);
@@ -67,7 +67,7 @@ void upper_floor(Mesh& m, const HouseStyle& s, float y, float z, Random& random)
     beam(m, Mat::Timber, {-half - 0.03f, top - 0.09f, proud - 0.01f}, {half + 0.03f, top - 0.09f, proud - 0.01f},
          0.15f, 0.18f);
     for (int i = 0; i <= bays; ++i) {
-        const float x = -half + bay * static_cast<float>(i) + (i == 0 ? 0.09f : i == bays ? -0.09f : 0.0f);
+        const float x = -half + bay * static_cast<float>(i) + (i == 0 ? 0.08f : i == bays ? -0.08f : 0.0f);
         beam(m, Mat::Timber, {x, y + 0.22f, proud}, {x, top - 0.18f, proud}, 0.18f, 0.09f, {0, 0, 1}, false);
     }
     for (int i = 0; i < bays; ++i) {
@@ -102,7 +102,7 @@ void gable_end(Mesh& m, const HouseStyle& s, float y, float z, float ridge, floa
         beam(m, Mat::Timber, {side * half * 0.75f, y + 0.05f, proud - 0.02f},
              {0.12f * side, mid + 0.5f, proud - 0.02f}, 0.14f, 0.07f, {0, 0, 1}, false);
     }
-    casement(m, 0.0f, mid + 0.25f, 0.7f, 0.8f, z + 0.012f);
+    casement(m, 0.0f, mid + 0.25f, 0.7f, 0.8f, z + 0.03f);
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ Mesh lantern_mesh() {  // hangs from the origin, 0.62 m down
     lathe(m, Mat::Iron, vec3(0), cap, 6);
     const std::array<vec2, 2> glass{{{0.085f, -0.56f}, {0.125f, -0.26f}}};
     lathe(m, Mat::Lantern, vec3(0), glass, 6);
-    const std::array<vec2, 2> foot{{{0.03f, -0.62f}, {0.11f, -0.55f}}};
+    const std::array<vec2, 2> foot{{{0.0f, -0.63f}, {0.11f, -0.55f}}};
     lathe(m, Mat::Iron, vec3(0), foot, 6);
     for (int i = 0; i < 3; ++i) {
         const float a = 2.0f * kPi * static_cast<float>(i) / 3.0f;

@@ -235,20 +235,19 @@ void slab(Mesh& mesh, Mat mat, vec3 a, vec3 b, vec3 c, vec3 d, float thickness, 
 void steps(Mesh& mesh, Mat mat, vec3 foot, vec3 along, float width, int count, float rise, float run,
            float floor_y) {
     const vec3 side = glm::cross(along, vec3(0, 1, 0)) * (width * 0.5f);
-    const float depth = run * static_cast<float>(count);
+    auto at = [](vec3 p, float height) { return vec3(p.x, height, p.z); };
     for (int i = 0; i < count; ++i) {
-        const float x = run * static_cast<float>(i), y = foot.y + rise * static_cast<float>(i);
-        const vec3 a = foot + along * x - side, b = foot + along * x + side;
-        auto at = [&](vec3 p, float height) { return vec3(p.x, height, p.z); };
-        mesh.quad(mat, at(b, y), at(a, y), at(a, y + rise), at(b, y + rise));  // riser
-        const vec3 a2 = a + along * run, b2 = b + along * run;
-        mesh.quad(mat, at(b, y + rise), at(a, y + rise), at(a2, y + rise), at(b2, y + rise));  // tread
-        mesh.quad(mat, at(a, floor_y), at(a2, floor_y), at(a2, y + rise), at(a, y + rise));
-        mesh.quad(mat, at(b2, floor_y), at(b, floor_y), at(b, y + rise), at(b2, y + rise));
+        const vec3 middle = foot + along * (run * static_cast<float>(i));
+        const vec3 a = middle - side, b = middle + side, a2 = a + along * run, b2 = b + along * run;
+        const float y = foot.y + rise * static_cast<float>(i), top = y + rise;
+        mesh.quad(mat, at(a, y), at(b, y), at(b, top), at(a, top));        // riser
+        mesh.quad(mat, at(a, top), at(b, top), at(b2, top), at(a2, top));  // tread
+        mesh.quad(mat, at(a2, floor_y), at(a, floor_y), at(a, top), at(a2, top));
+        mesh.quad(mat, at(b, floor_y), at(b2, floor_y), at(b2, top), at(b, top));
     }
-    const vec3 a = foot + along * depth - side, b = foot + along * depth + side;
-    const float y = foot.y + rise * static_cast<float>(count);
-    mesh.quad(mat, {a.x, floor_y, a.z}, {b.x, floor_y, b.z}, {b.x, y, b.z}, {a.x, y, a.z});
+    const vec3 end = foot + along * (run * static_cast<float>(count)), a = end - side, b = end + side;
+    const float top = foot.y + rise * static_cast<float>(count);
+    mesh.quad(mat, at(b, floor_y), at(a, floor_y), at(a, top), at(b, top));
 }
 
 mat4 place(vec3 position, float yaw_degrees, float scale) {

@@ -179,7 +179,7 @@ void square(Level& level, const Lamps& lamps, const Props& props) {
     for (const float side : {-1.0f, 1.0f}) {
         chamfered_box(m, Mat::Trim, {0.4f, 4.55f, side * 15.4f - 0.55f}, {15.0f, 4.85f, side * 15.4f + 0.55f},
                       0.06f);
-        Wall east{{14.4f, kSquareY - 3.0f, side > 0 ? 15.8f : -5.0f}, {0, 0, -1}, 10.8f, 8.2f, 0.8f, {}};
+        Wall east{{14.38f, kSquareY - 3.0f, side > 0 ? 15.8f : -5.0f}, {0, 0, -1}, 10.8f, 8.2f, 0.8f, {}};
         wall(m, Mat::Rubble, east);
         chamfered_box(m, Mat::Trim, {13.85f, 4.58f, side > 0 ? 5.0f : -15.7f},
                       {14.95f, 4.88f, side > 0 ? 15.7f : -5.0f}, 0.06f);

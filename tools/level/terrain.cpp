@@ -100,7 +100,7 @@ void height_field(Mesh& m) {
 
 Mesh viaduct_span() {  // 14 m along x, deck at y = 0
     Mesh m{"viaduct_span", {}, mat4(1.0f)};
-    Wall w{{-7.0f, -60.0f, 0}, {1, 0, 0}, 14.0f, 60.0f, 4.2f, {}, {}, 0.8f, true};
+    Wall w{{-7.0f, -60.0f, 0}, {1, 0, 0}, 14.0f, 60.0f, 4.2f, {}};
     w.openings = {round_opening(7.0f, 10.6f, 0.0f, 52.0f, 8)};
     wall(m, Mat::Rubble, w);
     Opening arch = w.openings[0];

@@ -124,21 +124,21 @@ void wall(Mesh& mesh, Mat mat, const Wall& w) {
     }
     b.solid(u, marks, w.length, {});
     if (!w.skip_ends) {
-        b.across(0, b.top(0), 0, 0);
-        b.across(w.length, 0, w.length, b.top(w.length));
+        b.across(0, 0, 0, b.top(0));
+        b.across(w.length, b.top(w.length), w.length, 0);
     }
 }
 
 void archivolt(Mesh& mesh, Mat mat, const Wall& w, const Opening& o, float width, float proud, float side,
-               float lip) {
+               float inset) {
     std::vector<vec2> line;
     const size_t n = o.us.size();
+    const bool closed = o.lower[n / 2] < o.lower.front() - 1e-3f;  // a circle
     const bool jambs = o.upper.front() - o.lower.front() > 1e-3f;
     if (jambs) line.emplace_back(o.us.front(), o.lower.front());
     for (size_t i = 0; i < n; ++i) line.emplace_back(o.us[i], o.upper[i]);
-    if (jambs) {
-        line.emplace_back(o.us.back(), o.lower.back());
-    } else {
+    if (jambs) line.emplace_back(o.us.back(), o.lower.back());
+    if (closed) {
         for (size_t i = n - 2; i > 0; --i) line.emplace_back(o.us[i], o.lower[i]);
         line.push_back(line.front());
     }
@@ -147,7 +147,6 @@ void archivolt(Mesh& mesh, Mat mat, const Wall& w, const Opening& o, float width
     std::vector<vec2> normal(count);  // points away from the opening
     for (size_t i = 0; i < count; ++i) {
         vec2 d(0.0f);
-        const bool closed = !jambs;
         const vec2 before = i > 0 ? line[i - 1] : (closed ? line[count - 2] : line[i]);
         const vec2 after = i + 1 < count ? line[i + 1] : (closed ? line[1] : line[i]);
         if (before != line[i]) d += glm::normalize(line[i] - before);
@@ -165,15 +164,15 @@ void archivolt(Mesh& mesh, Mat mat, const Wall& w, const Opening& o, float width
     const float bevel = std::min(width, proud) * 0.35f;
     for (size_t i = 0; i + 1 < count; ++i) {
         const size_t j = i + 1;
-        face(at(i, -lip, proud - bevel), at(j, -lip, proud - bevel), at(j, -lip, -0.05f), at(i, -lip, -0.05f));
-        face(at(i, bevel - lip, proud), at(j, bevel - lip, proud), at(j, -lip, proud - bevel),
-             at(i, -lip, proud - bevel));
-        face(at(i, width, proud), at(j, width, proud), at(j, bevel - lip, proud), at(i, bevel - lip, proud));
+        face(at(i, inset, proud - bevel), at(j, inset, proud - bevel), at(j, inset, -0.05f), at(i, inset, -0.05f));
+        face(at(i, bevel + inset, proud), at(j, bevel + inset, proud), at(j, inset, proud - bevel),
+             at(i, inset, proud - bevel));
+        face(at(i, width, proud), at(j, width, proud), at(j, bevel + inset, proud), at(i, bevel + inset, proud));
         face(at(i, width, -0.05f), at(j, width, -0.05f), at(j, width, proud), at(i, width, proud));
     }
-    if (jambs) {  // feet
-        face(at(0, -lip, -0.05f), at(0, width, -0.05f), at(0, width, proud), at(0, -lip, proud));
-        face(at(count - 1, width, -0.05f), at(count - 1, -lip, -0.05f), at(count - 1, -lip, proud),
+    if (!closed) {  // feet
+        face(at(0, inset, -0.05f), at(0, width, -0.05f), at(0, width, proud), at(0, inset, proud));
+        face(at(count - 1, width, -0.05f), at(count - 1, inset, -0.05f), at(count - 1, inset, proud),
              at(count - 1, width, proud));
     }
 }

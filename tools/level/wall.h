@@ -31,11 +31,11 @@ struct Wall {
 void wall(Mesh& mesh, Mat mat, const Wall& wall);
 
 // Moulding round the outline of `opening` on the wall's front (side = 1) or back (side = -1): `width` wide,
-// standing `proud` metres out of the wall. It reaches `lip` into the opening, so that no two
-// faces coincide. It is open where it
-// meets the wall. Sills are left bare where the outline has jambs.
+// standing `proud` metres out of the wall, set back `inset` from the edge so that no two faces coincide. It is open
+// where it meets the wall. Sills are left bare where the outline has jambs; an outline whose lower edge dips is a
+// full ring.
 void archivolt(Mesh& mesh, Mat mat, const Wall& wall, const Opening& opening, float width, float proud, float side,
-               float lip = 0.03f);
+               float inset = 0.02f);
 
 // Point of the wall's middle plane.
 inline vec3 wall_point(const Wall& w, float u, float y) {
