@@ -127,14 +127,12 @@ void fly_through(Session& session, const FlythroughOptions& options) {
             frame.place = place_at(path, frame.time);
             animate(session.scene, frame.time);
             session.draw(path_view(session, path, frame.time), frame.time);
-            for (const gl::GpuTimer::Scope& scope : session.timer->wait())
-                frame.pass_ms[scope.name] = scope.gpu_ms;
+            for (const gl::GpuTimer::Scope& scope : session.timer->wait()) frame.pass_ms[scope.name] = scope.gpu_ms;
             frames.push_back(std::move(frame));
         }
     }
     session.timer->set_mode(gl::TimerMode::off);
     for (const Animation::Place& place : path.places) {
-        if (place.time > duration) continue;
         animate(session.scene, place.time);
         session.draw(path_view(session, path, place.time), place.time);
         write_image(options.out / (place.name + ".png"), session.renderer->read_display());

@@ -3,14 +3,20 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <chrono>
 #include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <utility>
 
 #include "engine/core/error.h"
+#include "engine/core/files.h"
 #include "engine/core/image.h"
 #include "engine/core/log.h"
 #include "engine/platform/frame_clock.h"
 #include "sample_game/level_logic.h"
 #include "sample_game/player.h"
+#include "sample_game/stats_json.h"
 #include "sample_game/ui/debug_ui.h"
 
 namespace tyndall {
@@ -18,14 +24,41 @@ namespace {
 
 constexpr float game_yfov = 1.05f;  // 60 degrees
 constexpr float game_znear = 0.08f;
-constexpr double message_seconds = 2.5;
+constexpr double message_seconds = 2.5, help_seconds = 15;
+constexpr const char* help =
+    "click: look around   WASD, shift, space: walk, run, jump   F: fly   1-6: places   T G V: time, fog, "
+    "technique\n"
+    "F1: settings   F2: picture   H: hide this line   Esc: free the pointer, then quit";
 const std::array<std::string, 6> places{"LocalPM", "Close", "LocalLights", "Sun", "Depth", "Balance"};
+
+/// Real seconds since the last call, for what people read; 0 at first.
+class Stopwatch {
+  public:
+    double lap() {
+        const auto now = std::chrono::steady_clock::now();
+        return std::chrono::duration<double>(now - std::exchange(last_, now)).count();
+    }
+
+  private:
+    std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+/// The first of tyndall-001.png, tyndall-002.png … that is not there yet.
+std::string unused_screenshot_name() {
+    for (int i = 1;; ++i)
+        if (std::string name = fmt::format("tyndall-{:03}.png", i); !std::filesystem::exists(name)) return name;
+}
 
 class Game {
   public:
-    explicit Game(Session& session)
-        : session_(session), player_(session.scene), logic_(session.scene), ui_(*session.shaders) {
+    Game(Session& session, const GameOptions& options)
+        : session_(session),
+          options_(options),
+          player_(session.scene),
+          logic_(session.scene),
+          ui_(*session.shaders) {
         session.timer->set_mode(session.timer_mode());
+        say(help, help_seconds);
     }
 
     void frame(double dt) {
@@ -33,9 +66,10 @@ class Game {
         const Input& input = context.input();
         context.poll();
         session_.size = glm::max(context.framebuffer_size(), glm::ivec2(1));
-        if (!ui_.wants_keyboard()) keys(input);
+        keys(input);
         pointer(input);
-        player_.update(ui_.wants_keyboard() ? Input{} : input, dt, captured_);
+        if (player_.update(ui_.wants_keyboard() ? Input{} : input, dt, captured_))
+            session_.renderer->invalidate_history();
 
         time_ += dt;
         session_.shaders->reload_changed();
@@ -44,20 +78,36 @@ class Game {
         session_.draw(make_view(player_.camera_to_world(), game_yfov, game_znear, aspect), time_);
         if (screenshot_requested_) screenshot();
 
-        frame_ms_ += (dt * 1e3 - frame_ms_) * 0.1;
-        DebugUi::Hud hud{where(), frame_ms_, time_ < message_until_ ? message_ : std::string{}};
+        const double seconds = stopwatch_.lap();
+        message_seconds_left_ -= seconds;
+        frame_ms_ = frame_ms_ == 0 ? seconds * 1e3 : frame_ms_ + (seconds * 1e3 - frame_ms_) * 0.1;
+        DebugUi::Hud hud{where(), frame_ms_, message_seconds_left_ > 0 ? message_ : std::string{}};
         const DebugUi::Requests requests = ui_.frame(session_, logic_, hud, dt, !captured_);
         screenshot_requested_ = requests.screenshot;
         context.present(session_.renderer->display_framebuffer(), session_.renderer->size());
     }
 
+    void write_stats() const {
+        if (!options_.stats) return;
+        const glm::vec3 eye = player_.eye(), direction = player_.direction();
+        nlohmann::json stats = stats_json(session_);
+        stats["player"] = {{"eye", {eye.x, eye.y, eye.z}},
+                           {"direction", {direction.x, direction.y, direction.z}},
+                           {"flying", player_.flying()},
+                           {"on_ground", player_.on_ground()}};
+        stats["gl_messages"] = debug_messages().count;
+        write_text(*options_.stats, stats.dump(2) + "\n");
+    }
+
   private:
     void keys(const Input& input) {
-        if (input.pressed(Key::f1)) {
+        if (input.pressed(Key::f1) || input.gamepad.menu) {
             ui_.visible = !ui_.visible;
             if (ui_.visible) capture(false);
         }
         if (input.pressed(Key::f2)) screenshot_requested_ = true;
+        if (input.pressed(Key::escape)) escape();
+        if (ui_.wants_keyboard()) return;  // letters and digits go to a text field
         if (input.pressed(Key::h)) ui_.hud_visible = !ui_.hud_visible;
         if (input.pressed(Key::f) || input.gamepad.fly) {
             player_.set_flying(!player_.flying());
@@ -74,12 +124,18 @@ class Game {
         if (input.pressed(Key::v)) next_technique();
         for (int i = 0; i < 6; ++i)
             if (input.pressed(static_cast<Key>(static_cast<int>(Key::num_1) + i))) go_to(places[i]);
-        if (input.pressed(Key::escape)) {
-            if (captured_)
-                capture(false);
-            else
-                session_.context->request_close();
-        }
+    }
+
+    /// Out of one thing at a time: mouse look, a text field, the debug window, the game.
+    void escape() {
+        if (captured_)
+            capture(false);
+        else if (ui_.wants_keyboard())
+            return;
+        else if (ui_.visible)
+            ui_.visible = false;
+        else
+            session_.context->request_close();
     }
 
     void pointer(const Input& input) {
@@ -105,13 +161,16 @@ class Game {
     void next_technique() {
         const std::vector<std::string>& names = volumetrics::technique_names();
         const auto current = static_cast<std::size_t>(session_.options.volumetrics.technique);
-        session_.settings.set("technique", names[(current + 1) % names.size()]);
+        const std::string& next = names[(current + 1) % names.size()];
+        session_.settings.set("technique", next);
+        say("technique: " + next);
     }
 
     void screenshot() {
         screenshot_requested_ = false;
-        const std::string name = fmt::format("tyndall-{:03}.png", ++screenshots_);
+        const std::string name = unused_screenshot_name();
         try {
+            write_stats();
             write_image(name, session_.renderer->read_display());
             say("saved " + name);
         } catch (const Error& e) {
@@ -136,28 +195,30 @@ class Game {
                            eye.z);
     }
 
-    void say(std::string text) {
+    void say(std::string text, double seconds = message_seconds) {
         message_ = std::move(text);
-        message_until_ = time_ + message_seconds;
+        message_seconds_left_ = seconds;
     }
 
     Session& session_;
+    const GameOptions& options_;
     Player player_;
     LevelLogic logic_;
     DebugUi ui_;
     bool captured_ = false, screenshot_requested_ = false;
-    int screenshots_ = 0;
-    double time_ = 0, message_until_ = 0, frame_ms_ = 16;
+    double time_ = 0, message_seconds_left_ = 0, frame_ms_ = 0;
+    Stopwatch stopwatch_;
     std::string message_;
 };
 
 }  // namespace
 
 void play(Session& session, const GameOptions& options) {
-    Game game(session);
+    Game game(session, options);
     FrameClock clock = options.fixed_step > 0 ? FrameClock::fixed(options.fixed_step) : FrameClock::wall();
     for (int i = 0; !session.context->should_close() && (options.frames == 0 || i < options.frames); ++i)
         game.frame(clock.tick());
+    game.write_stats();
     if (options.screenshot) write_image(*options.screenshot, session.renderer->read_display());
 }
 

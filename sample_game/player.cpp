@@ -5,6 +5,7 @@
 #include <btBulletDynamicsCommon.h>
 
 #include <algorithm>
+#include <cmath>
 #include <glm/gtc/constants.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -21,8 +22,9 @@ constexpr float gravity = 9.81f;
 constexpr float pointer_gain = 0.0022f;  // rad per pixel
 constexpr float stick_gain = 2.6f;       // rad/s
 constexpr float max_pitch = 1.54f;
-constexpr double physics_step = 1.0 / 120.0;
-constexpr float fall_margin = 30.0f;  // m below the level's lowest point
+constexpr float longest_physics_step = 1.0f / 120.0f;  // s
+constexpr float stair_time = 0.08f;                    // s in which the eye makes up for all but 1/e of a step
+constexpr float fall_margin = 30.0f;                   // m below the level's lowest point
 
 btVector3 to_bullet(glm::vec3 v) {
     return {v.x, v.y, v.z};
@@ -108,6 +110,8 @@ Player::Player(const Scene& scene) : world_(std::make_unique<World>(scene)) {
         place(glm::vec3(camera[3]), -glm::vec3(camera[2]));
         flying_ = true;
     }
+    start_ = eye_;
+    start_direction_ = direction();
 }
 
 Player::~Player() = default;
@@ -116,8 +120,8 @@ void Player::place(glm::vec3 eye, glm::vec3 direction) {
     const glm::vec3 d = glm::normalize(direction);
     yaw_ = std::atan2(-d.x, -d.z);
     pitch_ = std::clamp(std::asin(d.y), -max_pitch, max_pitch);
-    eye_ = start_ = eye;
-    start_direction_ = d;
+    eye_ = eye;
+    stair_offset_ = 0;
     world_->warp(eye);
 }
 
@@ -132,7 +136,7 @@ glm::mat4 Player::camera_to_world() const {
 }
 
 void Player::set_flying(bool flying) {
-    if (flying_ && !flying) world_->warp(eye_);
+    if (flying_ && !flying) place(eye_, direction());
     flying_ = flying;
 }
 
@@ -140,38 +144,60 @@ bool Player::on_ground() const {
     return !flying_ && world_->character->onGround();
 }
 
-void Player::update(const Input& input, double dt, bool look) {
+bool Player::update(const Input& input, double dt, bool look_with_pointer) {
     const float step = static_cast<float>(dt);
-    const Input::Gamepad& pad = input.gamepad;
-    if (look) {
-        yaw_ -= static_cast<float>(input.pointer_delta.x) * pointer_gain;
-        pitch_ -= static_cast<float>(input.pointer_delta.y) * pointer_gain;
-    }
-    yaw_ -= pad.right.x * stick_gain * step;
-    pitch_ = std::clamp(pitch_ - pad.right.y * stick_gain * step, -max_pitch, max_pitch);
-    yaw_ = std::remainder(yaw_, glm::two_pi<float>());
-
+    look(input, look_with_pointer, step);
     const auto axis = [&](Key positive, Key negative) {
         return static_cast<float>(input.down(positive)) - static_cast<float>(input.down(negative));
     };
-    glm::vec2 move(axis(Key::d, Key::a) + pad.left.x, axis(Key::w, Key::s) - pad.left.y);
+    const glm::vec2 stick = input.gamepad.left;  // +y is down
+    glm::vec2 move(axis(Key::d, Key::a) + stick.x, axis(Key::w, Key::s) - stick.y);
     if (glm::length(move) > 1) move = glm::normalize(move);
-    const glm::vec3 forward = flying_ ? direction() : glm::vec3(-std::sin(yaw_), 0, -std::cos(yaw_));
-    const glm::vec3 right(std::cos(yaw_), 0, -std::sin(yaw_));
-    const bool fast = input.down(Key::shift);
+    if (flying_)
+        fly(input, move, step);
+    else
+        walk(input, move, step);
+    if (flying_ || eye_.y >= lowest_) return false;
+    place(start_, start_direction_);
+    return true;
+}
 
-    if (flying_) {
-        const float up = axis(Key::space, Key::control) + pad.up - pad.down;
-        eye_ +=
-            (forward * move.y + right * move.x + glm::vec3(0, up, 0)) * (fast ? fast_fly_speed : fly_speed) * step;
-        return;
+void Player::look(const Input& input, bool pointer, float dt) {
+    const glm::vec2 stick = input.gamepad.right * stick_gain * dt;
+    const glm::vec2 turn = pointer ? glm::vec2(input.pointer_delta) * pointer_gain : glm::vec2(0);
+    yaw_ = std::remainder(yaw_ - turn.x - stick.x, glm::two_pi<float>());
+    pitch_ = std::clamp(pitch_ - turn.y - stick.y, -max_pitch, max_pitch);
+}
+
+void Player::fly(const Input& input, glm::vec2 move, float dt) {
+    const float up = static_cast<float>(input.down(Key::space)) - static_cast<float>(input.down(Key::control)) +
+                     input.gamepad.up - input.gamepad.down;
+    const glm::vec3 right(std::cos(yaw_), 0, -std::sin(yaw_));
+    const float speed = input.down(Key::shift) ? fast_fly_speed : fly_speed;
+    eye_ += (direction() * move.y + right * move.x + glm::vec3(0, up, 0)) * speed * dt;
+}
+
+void Player::walk(const Input& input, glm::vec2 move, float dt) {
+    if (dt <= 0) return;
+    const glm::vec3 forward(-std::sin(yaw_), 0, -std::cos(yaw_)), right(std::cos(yaw_), 0, -std::sin(yaw_));
+    const glm::vec3 velocity =
+        (forward * move.y + right * move.x) * (input.down(Key::shift) ? run_speed : walk_speed);
+    btKinematicCharacterController& character = *world_->character;
+    if ((input.pressed(Key::space) || input.gamepad.jump) && character.onGround()) character.jump();
+
+    // Equal steps that end with the frame: with a fixed step, frames would hold two or three of them in turn.
+    const int steps = std::max(1, static_cast<int>(std::ceil(dt / longest_physics_step)));
+    const float h = dt / static_cast<float>(steps);
+    for (int i = 0; i < steps; ++i) {
+        const bool stood = character.onGround();
+        const float before = world_->eye().y;
+        character.setWalkDirection(to_bullet(velocity * h));
+        world_->world.stepSimulation(h, 0);
+        if (stood && character.onGround()) stair_offset_ += before - world_->eye().y;
+        stair_offset_ *= std::exp(-h / stair_time);
     }
-    const glm::vec3 velocity = (forward * move.y + right * move.x) * (fast ? run_speed : walk_speed);
-    world_->character->setWalkDirection(to_bullet(velocity * static_cast<float>(physics_step)));
-    if ((input.pressed(Key::space) || pad.jump) && world_->character->onGround()) world_->character->jump();
-    world_->world.stepSimulation(step, 16, static_cast<btScalar>(physics_step));
-    eye_ = world_->eye();
-    if (eye_.y < lowest_) place(start_, start_direction_);
+    stair_offset_ = std::clamp(stair_offset_, -step_height, step_height);
+    eye_ = world_->eye() + glm::vec3(0, stair_offset_, 0);
 }
 
 }  // namespace tyndall

@@ -18,8 +18,9 @@ class Player {
 
     /// Puts the eye at `eye`, looking along `direction`, at rest.
     void place(glm::vec3 eye, glm::vec3 direction);
-    /// Walks or flies for `dt` seconds. `look` says whether the pointer turns the view.
-    void update(const Input& input, double dt, bool look);
+    /// Walks or flies for `dt` seconds. `look` says whether the pointer turns the view. True: the player fell out
+    /// of the level and stands at the start again (a camera cut).
+    bool update(const Input& input, double dt, bool look);
 
     [[nodiscard]] glm::vec3 eye() const { return eye_; }
     [[nodiscard]] glm::vec3 direction() const;
@@ -29,13 +30,18 @@ class Player {
     [[nodiscard]] bool on_ground() const;
 
   private:
+    void look(const Input& input, bool pointer, float dt);
+    void fly(const Input& input, glm::vec2 move, float dt);
+    void walk(const Input& input, glm::vec2 move, float dt);
+
     struct World;
     std::unique_ptr<World> world_;
     glm::vec3 eye_{0};
     glm::vec3 start_{0};
     glm::vec3 start_direction_{0, 0, -1};
     float yaw_ = 0, pitch_ = 0;
-    float lowest_ = 0;  ///< below this the player has fallen out of the level
+    float stair_offset_ = 0;  ///< m the eye lags behind the capsule, so that stairs are a ramp to it
+    float lowest_ = 0;        ///< below this the player has fallen out of the level
     bool flying_ = false;
 };
 

@@ -58,7 +58,7 @@ void add_compare_command(CLI::App& app) {
         ->delimiter(',')
         ->check(CLI::IsMember({"rmse", "relmse", "psnr", "max"}));
     command->add_option("--heatmap", options->heatmap, "write |A-B| as a picture (.png or .exr)");
-    command->add_flag("--json", options->json);
+    command->add_flag("--json", options->json, "one JSON object; a value that is not finite is null");
     command->callback([options] { run(*options); });
 }
 

@@ -12,7 +12,11 @@ namespace tyndall {
 namespace {
 
 bool has_display() {
-    return std::getenv("DISPLAY") != nullptr || std::getenv("WAYLAND_DISPLAY") != nullptr;
+    const auto set = [](const char* name) {
+        const char* value = std::getenv(name);
+        return value != nullptr && *value != '\0';
+    };
+    return set("DISPLAY") || set("WAYLAND_DISPLAY");
 }
 
 }  // namespace
@@ -21,7 +25,7 @@ void add_play_command(CLI::App& app) {
     struct Options {
         DrawOptions draw;
         GameOptions game;
-        std::filesystem::path out = "tyndall-flythrough";
+        FlythroughOptions path{.out = "tyndall-flythrough"};
     };
     auto o = std::make_shared<Options>();
     CLI::App* command = app.add_subcommand("play", "Walk through a level; with no display, render its fly-through");
@@ -30,15 +34,20 @@ void add_play_command(CLI::App& app) {
     command->add_option("--fixed-step", o->game.fixed_step, "seconds per frame instead of the wall clock")
         ->check(CLI::Range(1e-4, 1.0));
     command->add_option("--screenshot", o->game.screenshot, "picture of the last frame, with the HUD");
-    command->add_option("--out", o->out, "folder of the fly-through when there is no display")
+    command->add_option("--stats", o->game.stats,
+                        "JSON as of render, with the player; written at each F2 picture and at the end");
+    command->add_option("--out", o->path.out, "without a display: folder of the fly-through")
         ->capture_default_str();
-    command->callback([o] {
+    command->add_option("--duration", o->path.duration, "without a display: seconds of the fly-through's path")
+        ->check(CLI::PositiveNumber);
+    command->callback([o, command] {
         if (!has_display() && parse_context_kind(o->draw.context) == ContextKind::automatic) {
-            fmt::print(stderr, "tyndall: no display, so the fly-through is rendered into {}\n", o->out.string());
-            o->draw.size = "640x360";
+            fmt::print(stderr, "tyndall: no display, so the fly-through is rendered into {}\n",
+                       o->path.out.string());
+            if (command->count("--size") == 0) o->draw.size = "640x360";
             Session session(o->draw, false);
-            fly_through(session, FlythroughOptions{.out = o->out});
-            fmt::print("{}\n", (o->out / "summary.md").string());
+            fly_through(session, o->path);
+            fmt::print("{}\n", (o->path.out / "summary.md").string());
             return;
         }
         Session session(o->draw, true);

@@ -4,6 +4,7 @@
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "engine/core/error.h"
@@ -16,9 +17,16 @@ namespace tyndall {
 namespace {
 
 const ImVec4 red{1.0f, 0.35f, 0.3f, 1.0f};
+constexpr float overlay_margin = 10;                          // px
+const ImVec2 window_position{12, 12}, window_size{430, 650};  // px; less where the screen is smaller
 constexpr ImGuiWindowFlags overlay_flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize |
                                            ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing |
                                            ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoInputs;
+
+/// Where overlay lines wrap, so that they stay inside a window `width` pixels wide.
+void wrap_at(float width) {
+    ImGui::PushTextWrapPos(std::max(width - 2 * (overlay_margin + ImGui::GetStyle().WindowPadding.x), 100.0f));
+}
 
 void style() {
     ImGui::StyleColorsDark();
@@ -66,27 +74,43 @@ bool DebugUi::wants_pointer() const {
 }
 
 void DebugUi::hud_line(const Session& session, const Hud& hud) const {
-    ImGui::SetNextWindowPos(ImVec2(10, static_cast<float>(session.size.y) - 10), ImGuiCond_Always, ImVec2(0, 1));
+    const ImVec2 screen = ImGui::GetIO().DisplaySize;
+    ImGui::SetNextWindowPos(ImVec2(overlay_margin, screen.y - overlay_margin), ImGuiCond_Always, ImVec2(0, 1));
     ImGui::SetNextWindowBgAlpha(0.45f);
     if (ImGui::Begin("hud", nullptr, overlay_flags)) {
         const bool timed = !session.renderer->timings().empty();
         const std::string volumetrics =
             timed ? fmt::format("{:.2f} ms volumetrics", pass_milliseconds(*session.renderer, "volumetrics/"))
                   : std::string("volumetrics not timed");
-        ImGui::Text("%s  |  %.1f ms frame  |  %s  |  %dx%d  |  %s", session.settings.get("technique").c_str(),
-                    hud.frame_ms, volumetrics.c_str(), session.size.x, session.size.y, hud.place.c_str());
+        wrap_at(screen.x);
         if (!hud.message.empty()) ImGui::TextUnformatted(hud.message.c_str());
+        ImGui::Text("%s  |  %.1f ms frame  |  %s  |  %s", session.settings.get("technique").c_str(), hud.frame_ms,
+                    volumetrics.c_str(), hud.place.c_str());
+        ImGui::PopTextWrapPos();
     }
     ImGui::End();
 }
 
 void DebugUi::shader_errors(const ShaderLibrary& shaders) const {
     if (shaders.errors().empty()) return;
-    ImGui::SetNextWindowPos(ImVec2(10, 10));
+    const float width = ImGui::GetIO().DisplaySize.x;
+    ImGui::SetNextWindowPos(ImVec2(width - overlay_margin, overlay_margin), ImGuiCond_Always, ImVec2(1, 0));
     ImGui::SetNextWindowBgAlpha(0.8f);
-    if (ImGui::Begin("shader errors", nullptr, overlay_flags))
+    if (ImGui::Begin("shader errors", nullptr, overlay_flags)) {
+        wrap_at(width);
         for (const std::string& error : shaders.errors()) ImGui::TextColored(red, "%s", error.c_str());
+        ImGui::PopTextWrapPos();
+    }
     ImGui::End();
+}
+
+void DebugUi::level(Session& session, LevelLogic& logic) {
+    if (!ImGui::CollapsingHeader("Level", ImGuiTreeNodeFlags_DefaultOpen)) return;
+    ImGui::PushItemWidth(ImGui::GetContentRegionAvail().x * 0.5f);
+    choose("Time of day (T)", logic.day_times(), logic.day_time(),
+           [&](std::size_t i) { logic.set_day_time(session.scene, i); });
+    choose("Fog (G)", logic.fogs(), logic.fog(), [&](std::size_t i) { logic.set_fog(session.scene, i); });
+    ImGui::PopItemWidth();
 }
 
 void DebugUi::presets(Session& session) {
@@ -103,40 +127,43 @@ void DebugUi::presets(Session& session) {
         if (ImGui::Button(name.c_str())) attempt(name + " applied", [&] { apply_preset(session.settings, name); });
         ImGui::SameLine();
     }
-    if (ImGui::Button("defaults")) session.settings.reset_to_defaults();
-    ImGui::InputText("file", &preset_path_);
-    if (ImGui::Button("load")) attempt("loaded", [&] { apply_preset(session.settings, preset_path_); });
+    if (ImGui::Button("defaults")) attempt("defaults applied", [&] { session.settings.reset_to_defaults(); });
+    ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x * 0.5f);
+    ImGui::InputText("##file", &preset_path_);
+    ImGui::SameLine();
+    if (ImGui::Button("load"))
+        attempt(preset_path_ + " applied", [&] { apply_preset(session.settings, preset_path_); });
     ImGui::SameLine();
     if (ImGui::Button("save"))
-        attempt("saved", [&] { write_text(preset_path_, session.settings.to_json().dump(2) + "\n"); });
-    ImGui::TextWrapped("%s", preset_message_.c_str());
+        attempt(preset_path_ + " saved",
+                [&] { write_text(preset_path_, session.settings.to_json().dump(2) + "\n"); });
+    if (!preset_message_.empty()) ImGui::TextWrapped("%s", preset_message_.c_str());
 }
 
 DebugUi::Requests DebugUi::window(Session& session, LevelLogic& logic) {
     Requests requests;
-    ImGui::SetNextWindowPos(ImVec2(12, 12), ImGuiCond_FirstUseEver);
-    ImGui::SetNextWindowSize(ImVec2(430, static_cast<float>(session.size.y) - 70), ImGuiCond_FirstUseEver);
-    if (ImGui::Begin("Tyndall  (F1)", &visible)) {
-        choose("time of day", logic.day_times(), logic.day_time(),
-               [&](std::size_t i) { logic.set_day_time(session.scene, i); });
-        choose("fog", logic.fogs(), logic.fog(), [&](std::size_t i) { logic.set_fog(session.scene, i); });
-        requests.screenshot = ImGui::Button("screenshot (F2)");
-        if (ImGui::BeginTabBar("tabs")) {
-            if (ImGui::BeginTabItem("Settings")) {
-                presets(session);
-                settings_panel(session.settings);
-                ImGui::EndTabItem();
-            }
-            if (ImGui::BeginTabItem("Passes")) {
-                passes_panel(session);
-                ImGui::EndTabItem();
-            }
-            if (ImGui::BeginTabItem("Textures")) {
-                viewer_->panel(session.renderer->passes());
-                ImGui::EndTabItem();
-            }
-            ImGui::EndTabBar();
-        }
+    const auto tab = [](const char* name, const std::function<void()>& content) {
+        if (!ImGui::BeginTabItem(name)) return;
+        if (ImGui::BeginChild(name)) content();  // scrolls below the tabs
+        ImGui::EndChild();
+        ImGui::EndTabItem();
+    };
+    const ImVec2 screen = ImGui::GetIO().DisplaySize;
+    const ImVec2 largest(std::max(screen.x - 2 * window_position.x, 100.0f),
+                         std::max(screen.y - 2 * window_position.y, 100.0f));
+    ImGui::SetNextWindowPos(window_position, ImGuiCond_FirstUseEver);
+    ImGui::SetNextWindowSize(window_size, ImGuiCond_FirstUseEver);
+    ImGui::SetNextWindowSizeConstraints(ImVec2(100, 100), largest);
+    if (ImGui::Begin("Tyndall  (F1)", &visible) && ImGui::BeginTabBar("tabs")) {
+        tab("Settings", [&] {
+            level(session, logic);
+            presets(session);
+            settings_panel(session.settings);
+        });
+        tab("Passes", [&] { passes_panel(session); });
+        tab("Textures", [&] { viewer_->panel(session.renderer->passes()); });
+        requests.screenshot = ImGui::TabItemButton("Picture (F2)", ImGuiTabItemFlags_Trailing);
+        ImGui::EndTabBar();
     }
     ImGui::End();
     return requests;

@@ -39,6 +39,7 @@ class DebugUi {
     void hud_line(const Session& session, const Hud& hud) const;
     void shader_errors(const ShaderLibrary& shaders) const;
     Requests window(Session& session, LevelLogic& logic);
+    void level(Session& session, LevelLogic& logic);
     void presets(Session& session);
 
     struct ContextDeleter {

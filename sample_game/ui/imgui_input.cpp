@@ -46,8 +46,10 @@ void feed_imgui(const Input& input, glm::ivec2 size, double dt, bool pointer_is_
     io.MouseDown[0] = button(MouseButton::left);
     io.MouseDown[1] = button(MouseButton::right);
     io.MouseDown[2] = button(MouseButton::middle);
-    io.MouseWheel = static_cast<float>(input.scroll);
-    for (int key = 0; key < static_cast<int>(Key::count); ++key) io.KeysDown[key] = input.keys_down[key];
+    if (pointer_is_free) io.MouseWheel = static_cast<float>(input.scroll);
+    // A key or button that went down and up within one slow frame counts for that frame.
+    for (int key = 0; key < static_cast<int>(Key::count); ++key)
+        io.KeysDown[key] = input.keys_down[key] || input.keys_pressed[key];
     io.KeyShift = input.down(Key::shift);
     io.KeyCtrl = input.down(Key::control);
     io.KeyAlt = input.down(Key::alt);

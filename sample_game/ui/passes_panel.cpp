@@ -1,5 +1,6 @@
 #include "sample_game/ui/passes_panel.h"
 
+#include <fmt/format.h>
 #include <imgui.h>
 
 #include <algorithm>
@@ -38,11 +39,27 @@ void times_table(const Renderer& renderer) {
     ImGui::EndTable();
 }
 
+/// Three digits and a prefix: 12.3 M.
+std::string short_count(std::uint64_t n) {
+    const auto value = static_cast<double>(n);
+    if (n < 10'000) return fmt::format("{}", n);
+    if (n < 1'000'000) return fmt::format("{:.1f} k", value * 1e-3);
+    if (n < 1'000'000'000) return fmt::format("{:.1f} M", value * 1e-6);
+    return fmt::format("{:.1f} G", value * 1e-9);
+}
+
+/// "shadow_lookups" on two lines.
+std::string column_title(std::string name) {
+    std::replace(name.begin(), name.end(), '_', '\n');
+    return name;
+}
+
 void work_table(const Renderer& renderer) {
     constexpr int kinds = static_cast<int>(gl::Work::count);
     if (!ImGui::BeginTable("work", kinds + 1, table_flags)) return;
-    ImGui::TableSetupColumn("pass");
-    for (int i = 0; i < kinds; ++i) ImGui::TableSetupColumn(gl::to_string(static_cast<gl::Work>(i)));
+    ImGui::TableSetupColumn("pass", 0, 1.7f);
+    for (int i = 0; i < kinds; ++i)
+        ImGui::TableSetupColumn(column_title(gl::to_string(static_cast<gl::Work>(i))).c_str());
     ImGui::TableHeadersRow();
     for (const auto& [pass, counts] : renderer.work()) {
         ImGui::TableNextRow();
@@ -50,7 +67,8 @@ void work_table(const Renderer& renderer) {
         ImGui::TextUnformatted(pass.c_str());
         for (const std::uint64_t n : counts) {
             ImGui::TableNextColumn();
-            ImGui::Text("%llu", static_cast<unsigned long long>(n));
+            ImGui::TextUnformatted(short_count(n).c_str());
+            if (ImGui::IsItemHovered()) ImGui::SetTooltip("%llu", static_cast<unsigned long long>(n));
         }
     }
     ImGui::EndTable();
@@ -58,6 +76,9 @@ void work_table(const Renderer& renderer) {
 
 void pass_table(const PassList& passes) {
     if (!ImGui::BeginTable("passes", 2, table_flags)) return;
+    ImGui::TableSetupColumn("pass", 0, 2);
+    ImGui::TableSetupColumn("reads -> writes", 0, 3);
+    ImGui::TableHeadersRow();
     for (const PassList::PassInfo& info : passes.passes()) {
         ImGui::TableNextRow();
         ImGui::TableNextColumn();
@@ -71,9 +92,11 @@ void pass_table(const PassList& passes) {
             for (const std::string& r : info.reads) flow += r + " ";
             flow += "->";
             for (const std::string& w : info.writes) flow += " " + w;
-            ImGui::TextUnformatted(flow.c_str());
+            ImGui::TextWrapped("%s", flow.c_str());
         } else {
+            ImGui::PushTextWrapPos(0);
             ImGui::TextDisabled("not run: %s", info.reason.c_str());
+            ImGui::PopTextWrapPos();
         }
     }
     ImGui::EndTable();
@@ -103,8 +126,9 @@ void passes_panel(Session& session) {
     }
     if (ImGui::CollapsingHeader("Pass list", ImGuiTreeNodeFlags_DefaultOpen)) {
         const Renderer::DrawCounts draws = renderer.draw_counts();
-        ImGui::Text("%zu triangles, %zu instances, %zu draw calls, %.1f MiB of render targets", draws.triangles,
-                    draws.instances, draws.draw_calls, static_cast<double>(renderer.texture_bytes()) / (1 << 20));
+        ImGui::TextWrapped("%zu triangles, %zu instances, %zu draw calls, %.1f MiB of render targets",
+                           draws.triangles, draws.instances, draws.draw_calls,
+                           static_cast<double>(renderer.texture_bytes()) / (1 << 20));
         pass_table(renderer.passes());
     }
 }

@@ -78,13 +78,26 @@ const char* effect_text(SettingEffect effect) {
     return "";
 }
 
+std::string value_text(const Setting& s, double value) {
+    if (s.type == SettingType::choice) return s.choices[static_cast<std::size_t>(value)];
+    if (s.type == SettingType::boolean) return value != 0 ? "on" : "off";
+    return fmt::format("{:.6g}{}{}", value, s.unit.empty() ? "" : " ", s.unit);
+}
+
+void tooltip(const Setting& s) {
+    ImGui::BeginTooltip();
+    ImGui::PushTextWrapPos(std::min(ImGui::GetFontSize() * 26, ImGui::GetIO().DisplaySize.x * 0.8f));
+    ImGui::TextUnformatted(s.help.c_str());
+    ImGui::TextDisabled("%s, default %s; %s. Right click: default.", s.key.c_str(),
+                        value_text(s, s.default_value).c_str(), effect_text(s.effect));
+    ImGui::PopTextWrapPos();
+    ImGui::EndTooltip();
+}
+
 void row(const Setting& s, void* object) {
     double value = s.get(object);
     if (edit(s, value)) s.set(object, value);
-    if (ImGui::IsItemHovered())
-        ImGui::SetTooltip("%s%s%s\nkey: %s, default %g; %s\nright click: reset", s.help.c_str(),
-                          s.unit.empty() ? "" : "\nunit: ", s.unit.c_str(), s.key.c_str(), s.default_value,
-                          effect_text(s.effect));
+    if (ImGui::IsItemHovered()) tooltip(s);
     if (ImGui::IsItemClicked(ImGuiMouseButton_Right)) s.set(object, s.default_value);
 }
 

@@ -17,7 +17,11 @@ class TextureViewer {
     void panel(const PassList& passes);
 
   private:
+    void choose(const std::vector<PassList::TextureInfo>& textures);
     void draw(const gl::TextureView& texture);
+    void fit_range(const gl::TextureView& texture);
+    /// The picture's size follows the texture's proportions.
+    void resize(glm::ivec3 texture_size);
     ShaderLibrary& shaders_;
     gl::Texture picture_;
     gl::Framebuffer framebuffer_;
