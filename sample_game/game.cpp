@@ -26,9 +26,10 @@ constexpr float game_yfov = 1.05f;  // 60 degrees
 constexpr float game_znear = 0.08f;
 constexpr double message_seconds = 2.5, help_seconds = 15;
 constexpr const char* help =
-    "click: look around   WASD, shift, space: walk, run, jump   F: fly   1-6: places   T G V: time, fog, "
-    "technique\n"
-    "F1: settings   F2: picture   H: hide this line   Esc: free the pointer, then quit";
+    "click: look around   WASD: walk   shift: run   space: jump   F: fly   1-6: places\n"
+    "T: time of day   G: fog   V: technique   F1: settings   F2: picture   H: hide this\n"
+    "Esc: free the pointer, then quit";
+
 const std::array<std::string, 6> places{"LocalPM", "Close", "LocalLights", "Sun", "Depth", "Balance"};
 
 /// Real seconds since the last call, for what people read; 0 at first.
@@ -191,7 +192,7 @@ class Game {
                     nearest = place;
                 }
             }
-        return fmt::format("{}{}({:.1f}, {:.1f}, {:.1f})", nearest, nearest.empty() ? "" : " ", eye.x, eye.y,
+        return fmt::format("{}{}({:.0f}, {:.0f}, {:.0f})", nearest, nearest.empty() ? "" : " ", eye.x, eye.y,
                            eye.z);
     }
 

@@ -9,7 +9,6 @@
 
 #include "engine/core/error.h"
 #include "engine/core/files.h"
-#include "sample_game/ui/imgui_input.h"
 #include "sample_game/ui/passes_panel.h"
 #include "sample_game/ui/settings_panel.h"
 
@@ -38,6 +37,12 @@ void style() {
     s.Colors[ImGuiCol_Header] = ImVec4(0.42f, 0.28f, 0.12f, 0.6f);
     s.Colors[ImGuiCol_HeaderHovered] = ImVec4(0.55f, 0.36f, 0.15f, 0.8f);
     s.Colors[ImGuiCol_SliderGrab] = s.Colors[ImGuiCol_CheckMark] = ImVec4(0.95f, 0.65f, 0.25f, 1);
+    s.Colors[ImGuiCol_Button] = s.Colors[ImGuiCol_Tab] = ImVec4(0.32f, 0.22f, 0.11f, 0.9f);
+    s.Colors[ImGuiCol_ButtonHovered] = s.Colors[ImGuiCol_TabHovered] = ImVec4(0.6f, 0.4f, 0.17f, 1);
+    s.Colors[ImGuiCol_ButtonActive] = s.Colors[ImGuiCol_TabActive] = ImVec4(0.7f, 0.46f, 0.19f, 1);
+    s.Colors[ImGuiCol_HeaderActive] = ImVec4(0.7f, 0.46f, 0.19f, 1);
+    s.Colors[ImGuiCol_FrameBgHovered] = s.Colors[ImGuiCol_FrameBgActive] = ImVec4(0.35f, 0.29f, 0.22f, 0.8f);
+    s.Colors[ImGuiCol_SliderGrabActive] = ImVec4(1, 0.8f, 0.45f, 1);
     s.Colors[ImGuiCol_FrameBg] = ImVec4(0.2f, 0.19f, 0.18f, 0.7f);
 }
 
@@ -59,7 +64,6 @@ void DebugUi::ContextDeleter::operator()(ImGuiContext* context) const {
 DebugUi::DebugUi(ShaderLibrary& shaders) : context_(ImGui::CreateContext()) {
     ImGui::GetIO().IniFilename = nullptr;
     style();
-    map_imgui_keys();
     renderer_ = std::make_unique<ImguiRenderer>(shaders);
     viewer_ = std::make_unique<TextureViewer>(shaders);
 }
@@ -171,7 +175,7 @@ DebugUi::Requests DebugUi::window(Session& session, LevelLogic& logic) {
 
 DebugUi::Requests DebugUi::frame(Session& session, LevelLogic& logic, const Hud& hud, double dt,
                                  bool pointer_is_free) {
-    feed_imgui(session.context->input(), session.size, dt, pointer_is_free);
+    input_.feed(session.context->input(), session.size, dt, pointer_is_free);
     ImGui::NewFrame();
     Requests requests;
     if (hud_visible) hud_line(session, hud);

@@ -4,6 +4,7 @@
 
 #include "sample_game/level_logic.h"
 #include "sample_game/session.h"
+#include "sample_game/ui/imgui_input.h"
 #include "sample_game/ui/imgui_renderer.h"
 #include "sample_game/ui/texture_viewer.h"
 
@@ -46,6 +47,7 @@ class DebugUi {
         void operator()(ImGuiContext* context) const;
     };
     std::unique_ptr<ImGuiContext, ContextDeleter> context_;
+    ImguiInput input_;
     std::unique_ptr<ImguiRenderer> renderer_;
     std::unique_ptr<TextureViewer> viewer_;
     std::string preset_path_ = "tyndall-preset.json";

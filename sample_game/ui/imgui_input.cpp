@@ -7,7 +7,7 @@
 
 namespace tyndall {
 
-void map_imgui_keys() {
+ImguiInput::ImguiInput() {
     ImGuiIO& io = ImGui::GetIO();
     const auto map = [&](ImGuiKey_ imgui, Key key) { io.KeyMap[imgui] = static_cast<int>(key); };
     map(ImGuiKey_Tab, Key::tab);
@@ -32,22 +32,22 @@ void map_imgui_keys() {
     map(ImGuiKey_Z, Key::z);
 }
 
-void feed_imgui(const Input& input, glm::ivec2 size, double dt, bool pointer_is_free) {
+void ImguiInput::feed(const Input& input, glm::ivec2 size, double dt, bool pointer_is_free) {
     ImGuiIO& io = ImGui::GetIO();
     io.DisplaySize = ImVec2(static_cast<float>(size.x), static_cast<float>(size.y));
     io.DeltaTime = std::max(static_cast<float>(dt), 1e-5f);
     constexpr float nowhere = -std::numeric_limits<float>::max();
     io.MousePos = pointer_is_free ? ImVec2(static_cast<float>(input.pointer.x), static_cast<float>(input.pointer.y))
                                   : ImVec2(nowhere, nowhere);
-    const auto button = [&](MouseButton b) {
-        const auto i = static_cast<std::size_t>(b);
-        return pointer_is_free && (input.buttons_down[i] || input.buttons_pressed[i]);
-    };
-    io.MouseDown[0] = button(MouseButton::left);
-    io.MouseDown[1] = button(MouseButton::right);
-    io.MouseDown[2] = button(MouseButton::middle);
-    if (pointer_is_free) io.MouseWheel = static_cast<float>(input.scroll);
-    // A key or button that went down and up within one slow frame counts for that frame.
+    // A key or button that went down and up within one slow frame counts for that frame. Some widgets notice a
+    // press only when the pointer was there the frame before.
+    const bool moved = input.pointer_delta != glm::dvec2(0);
+    for (std::size_t i = 0; i < late_.size(); ++i) {
+        const bool pressed = input.buttons_pressed[i];
+        io.MouseDown[i] = pointer_is_free && (late_[i] || input.buttons_down[i] || pressed) && !(pressed && moved);
+        late_[i] = pressed && moved;
+    }
+    io.MouseWheel = pointer_is_free ? static_cast<float>(input.scroll) : 0.0f;
     for (int key = 0; key < static_cast<int>(Key::count); ++key)
         io.KeysDown[key] = input.keys_down[key] || input.keys_pressed[key];
     io.KeyShift = input.down(Key::shift);
