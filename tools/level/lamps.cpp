@@ -198,7 +198,7 @@ void add_sun(Level& level) {
     sun.name = "sun";
     sun.type = Light::Type::Sun;
     sun.color = {1.0f, 0.75f, 0.5f};
-    sun.intensity = 900.0f;
+    sun.intensity = 450.0f;
     const vec3 d = to_sun();  // lights shine along -Z: +Z of the node points to the sun
     const float yaw = arctangent(d.x, d.z) * 180.0f / kPi, pitch = -arcsine(d.y) * 180.0f / kPi;
     level.add_light(sun, vec3(0), Pose{vec3(0), yaw, pitch}.rotation());

@@ -62,7 +62,7 @@ struct Level {
     std::vector<Node> nodes;
     std::vector<Animation> animations;
     nlohmann::json media = nlohmann::json::array();
-    float exposure = 6.0f;  // EV100
+    float exposure = 5.9f;  // EV100
     float turbidity = 3.0f;
 
     int add_mesh(Mesh mesh);

@@ -93,12 +93,12 @@ MaterialSet make_materials() {
         m.emissive_strength = strength;
         m.roughness = 0.3f;
     };
-    glow("lantern", {1.0f, 0.62f, 0.26f}, 130.0f);
-    glow("paper", {1.0f, 0.36f, 0.12f}, 85.0f);
+    glow("lantern", {1.0f, 0.58f, 0.22f}, 100.0f);
+    glow("paper", {1.0f, 0.33f, 0.09f}, 55.0f);
     Material& window = set.painted("window", Mat::Window, 256, paint_window);
     window.base_color = {0.25f, 0.25f, 0.25f, 1.0f};
     window.emissive = vec3(1.0f);
-    window.emissive_strength = 45.0f;
+    window.emissive_strength = 32.0f;
     window.glow_from_albedo = true;
     Material& water = set.add("water");
     water.base_color = {0.02f, 0.03f, 0.03f, 1.0f};
