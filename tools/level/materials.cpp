@@ -69,7 +69,7 @@ MaterialSet make_materials() {
     set.painted("bark", Mat::Bark, 256, paint_bark);
     Material& leaves = set.add("leaves");
     leaves.albedo = set.image(encode_albedo_alpha(paint(256, paint_leaves), "leaves_albedo"));
-    leaves.roughness = 0.7f;
+    leaves.roughness = 0.95f;
     leaves.mask = leaves.double_sided = true;
     set.painted("iron", Mat::Iron, 128, paint_iron);
     const Painted weave = paint(256, paint_cloth);
