@@ -1,13 +1,15 @@
-// The media that fill space, in closed form. HAS_HEIGHT 0 removes the exponential height media.
+// The media that fill space, in closed form. HEIGHT_MEDIA: 0 or 1 exponential height medium, or any number up to
+// MAX_HEIGHT_MEDIA; one is by far the most usual, and without a loop several times faster than with it.
 #ifndef VOLUMETRICS_GLOBAL_MEDIA_GLSL
 #define VOLUMETRICS_GLOBAL_MEDIA_GLSL
 
 #include "shaders/lib/transmittance.glsl"
 #include "shaders/volumetrics/data.glsl"
 
-#ifndef HAS_HEIGHT
-#define HAS_HEIGHT 1
+#ifndef HEIGHT_MEDIA
+#define HEIGHT_MEDIA MAX_HEIGHT_MEDIA
 #endif
+#define HEIGHT_COUNT (HEIGHT_MEDIA == 1 ? 1u : volumetrics.counts.x)
 
 // Keeps sums and products of optical depths finite; exp(-x) is 0 long before.
 const float MAX_OPTICAL_DEPTH = 1.0e30f;
@@ -33,9 +35,9 @@ Medium global_medium(float y, float direction_y, float path_length) {
     m.emission = volumetrics.homogeneous_emission.rgb;
     m.optical_depth = volumetrics.homogeneous_sigma_t.rgb * path_length;
     m.anisotropy = volumetrics.homogeneous_sigma_s.w;
-#if HAS_HEIGHT
+#if HEIGHT_MEDIA
     float weighted = m.anisotropy * mean_channel(m.sigma_s);
-    for (uint i = 0u; i < volumetrics.counts.x; ++i) {
+    for (uint i = 0u; i < HEIGHT_COUNT; ++i) {
         HeightMedium medium = volumetrics.height[i];
         float density = height_mean_density(medium, y, direction_y, path_length);
         vec3 sigma_s = medium.sigma_s_base.rgb * density;
@@ -53,8 +55,8 @@ Medium global_medium(float y, float direction_y, float path_length) {
 // The height media alone: optical depth as above, and scattering at a height.
 vec3 height_optical_depth(float y, float direction_y, float path_length) {
     vec3 depth = vec3(0.0);
-#if HAS_HEIGHT
-    for (uint i = 0u; i < volumetrics.counts.x; ++i) {
+#if HEIGHT_MEDIA
+    for (uint i = 0u; i < HEIGHT_COUNT; ++i) {
         HeightMedium medium = volumetrics.height[i];
         depth += medium.sigma_t_falloff.rgb *
                  (height_mean_density(medium, y, direction_y, path_length) * path_length);
@@ -65,8 +67,8 @@ vec3 height_optical_depth(float y, float direction_y, float path_length) {
 
 vec3 height_sigma_s(float y) {
     vec3 sigma_s = vec3(0.0);
-#if HAS_HEIGHT
-    for (uint i = 0u; i < volumetrics.counts.x; ++i) {
+#if HEIGHT_MEDIA
+    for (uint i = 0u; i < HEIGHT_COUNT; ++i) {
         HeightMedium medium = volumetrics.height[i];
         sigma_s += medium.sigma_s_base.rgb *
                    height_density(y, medium.sigma_s_base.w, medium.sigma_t_falloff.w);
@@ -78,8 +80,8 @@ vec3 height_sigma_s(float y) {
 // To infinity in a direction with the vertical component direction_y.
 vec3 height_optical_depth_to_infinity(float y, float direction_y) {
     vec3 depth = vec3(0.0);
-#if HAS_HEIGHT
-    for (uint i = 0u; i < volumetrics.counts.x; ++i) {
+#if HEIGHT_MEDIA
+    for (uint i = 0u; i < HEIGHT_COUNT; ++i) {
         HeightMedium medium = volumetrics.height[i];
         depth += medium.sigma_t_falloff.rgb *
                  height_density_length_to_infinity(y, direction_y, medium.sigma_s_base.w, medium.sigma_t_falloff.w);

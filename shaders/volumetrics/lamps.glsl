@@ -1,4 +1,5 @@
-// In-scattering of local lights. LAMPS 1: at the sample point (the usual way). LAMPS 2: over the whole segment.
+// In-scattering of local lights. LAMPS 1: at the sample point (the usual way). LAMPS 2: over the whole segment, with the
+// inverse square in closed form, one visibility, and a four-node rule for all else.
 #ifndef VOLUMETRICS_LAMPS_GLSL
 #define VOLUMETRICS_LAMPS_GLSL
 
@@ -107,64 +108,78 @@ Reach lamp_reach(Ray ray, Segment segment, GpuLight light, LampRay lamp) {
     return reach;
 }
 
-// What the lamp scatters to the segment's front from one node of the quadrature, per candela.
-vec3 lamp_node(Ray ray, Segment segment, GpuLight light, float t, float weight) {
+// What reaches the segment's front of the light a lamp sends to a point of it, apart from inverse square and phase.
+vec3 lamp_transport(Ray ray, Segment segment, GpuLight light, float t) {
     vec3 point = ray.origin + ray.direction * t;
     vec3 from_lamp = point - light.position_range.xyz;
     float distance = length(from_lamp);
     from_lamp /= max(distance, 1.0e-6);
-    if (is_spot(light)) weight *= spot_cone(dot(from_lamp, light.direction_type.xyz), light.cone_shadow.xy);
-    weight *= phase(int(volumetrics.options.x), segment.anisotropy, -dot(from_lamp, ray.direction));
     float advance = t - segment.begin;
     vec3 depth = segment.sigma_t * advance + lamp_optical_depth(point.y, -from_lamp, distance);
     vec3 sigma_s = segment.sigma_s;
-#if HAS_HEIGHT
+#if HEIGHT_MEDIA
     sigma_s += height_sigma_s(point.y);
     depth += height_optical_depth(ray.origin.y + ray.direction.y * segment.begin, ray.direction.y, advance);
 #endif
-    return sigma_s * exp(-to_extinction(depth)) * weight;
+    vec3 transport = sigma_s * exp(-to_extinction(depth));
+    if (is_spot(light)) transport *= spot_cone(dot(from_lamp, light.direction_type.xyz), light.cone_shadow.xy);
+    return transport;
 }
 
 vec3 lamp_over_segment(Ray ray, Segment segment, uint index, GpuLight light, LampRay lamp, Reach reach) {
     count_work(WORK_LIGHT_EVALUATIONS, 1u);
-    if (light.cone_shadow.z >= 0.0) {
-        float a = reach.begin - lamp.t_closest;
-        float h = max(lamp.h, max(light.intensity_radius.w, LAMP_MIN_RADIUS));
-        float gathered = segment.offset * inverse_square_integral(a, reach.end - lamp.t_closest, reach.end - reach.begin, h);
-        float t = min(reach.begin + inverse_square_advance(a, h, gathered), reach.end);
-        count_work(WORK_SHADOW_LOOKUPS, 1u);
-        float visible = light_visibility(index, light, ray.origin + ray.direction * t);
-        if (visible <= 0.0) return vec3(0.0);
-        light.intensity_radius.rgb *= visible;
-    }
-    LampSegment rule =
-        lamp_segment(lamp, reach.begin, reach.end, light.intensity_radius.w, lamp_inverse_range(light));
-    return light.intensity_radius.rgb * (lamp_node(ray, segment, light, rule.t.x, rule.weight.x) +
-                                         lamp_node(ray, segment, light, rule.t.y, rule.weight.y) +
-                                         lamp_node(ray, segment, light, rule.t.z, rule.weight.z) +
-                                         lamp_node(ray, segment, light, rule.t.w, rule.weight.w));
+    float radius = light.intensity_radius.w;
+    LampSegment rule = lamp_segment(lamp, reach.begin, reach.end, radius, lamp_inverse_range(light));
+    vec4 cos_theta = lamp_segment_cos_theta(rule, lamp);
+    vec3 sum = vec3(0.0);
+    for (int i = 0; i < 4; ++i)
+        sum += lamp_transport(ray, segment, light, rule.t[i]) *
+               (rule.weight[i] * phase(int(volumetrics.options.x), segment.anisotropy, cos_theta[i]));
+
+    // Equi-angular (Kulla and Fajardo 2012): over all offsets the point is distributed as the inverse square.
+    float a = reach.begin - lamp.t_closest;
+    float span = reach.end - reach.begin;
+    LampIntegral integral = lamp_integral(a, a + span, span, lamp.h, radius);
+    float advance = clamp(lamp_advance(integral, segment.offset * integral.total), 0.0, span);
+    float visible = lamp_visibility(index, light, ray.origin + ray.direction * (reach.begin + advance));
+    return visible * light.intensity_radius.rgb * sum;
 }
 
 // Radiance that all lamps scatter to the segment's front. A segment may pass many light lists: looking up one of them
 // would lose the lamps of the others. So all are read, and a lamp is integrated over the whole segment where its
 // nearest lit point lies, which is listed if any part of the segment is lit: once, whatever lists repeat it.
+// The inner loop finds the next such lamp; rasterisers that run all lanes in step pay the integral only for those.
 vec3 lamps_over_segment(Ray ray, Segment segment) {
     vec3 sum = vec3(0.0);
     float begin = segment.begin;
-    for (int slice = light_slice(begin * ray.forward_cosine); begin < segment.end; ++slice) {
-        float end = clamp(light_slice_end(slice) / ray.forward_cosine, begin, segment.end);
-        bool last = end >= segment.end;
-        ClusterRange range = lights_in_slice(ray.uv, slice);
-        for (uint i = 0u; i < range.count; ++i) {
-            uint index = light_index(range.offset + i);
-            GpuLight light = light_at(index);
-            LampRay lamp = lamp_ray(ray.origin, ray.direction, light.position_range.xyz);
-            Reach reach = lamp_reach(ray, segment, light, lamp);
-            bool here = reach.nearest >= begin && (reach.nearest < end || last);
-            if (here && reach.begin < reach.end)
-                sum += lamp_over_segment(ray, segment, index, light, lamp, reach);
+    float end = segment.begin;
+    int slice = light_slice(begin * ray.forward_cosine) - 1;
+    uint next = 0u;
+    uint list_end = 0u;
+    while (true) {
+        uint index = 0u;
+        LampRay lamp;
+        Reach reach;
+        bool found = false;
+        while (!found && (next < list_end || end < segment.end)) {
+            if (next == list_end) {
+                ++slice;
+                begin = end;
+                end = clamp(light_slice_end(slice) / ray.forward_cosine, begin, segment.end);
+                ClusterRange range = lights_in_slice(ray.uv, slice);
+                next = range.offset;
+                list_end = range.offset + range.count;
+            } else {
+                index = light_index(next++);
+                GpuLight light = light_at(index);
+                lamp = lamp_ray(ray.origin, ray.direction, light.position_range.xyz);
+                reach = lamp_reach(ray, segment, light, lamp);
+                bool here = reach.nearest >= begin && (reach.nearest < end || end >= segment.end);
+                found = here && reach.begin < reach.end;
+            }
         }
-        begin = end;
+        if (!found) break;
+        sum += lamp_over_segment(ray, segment, index, light_at(index), lamp, reach);
     }
     return sum;
 }

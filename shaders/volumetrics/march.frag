@@ -106,7 +106,7 @@ void march_segment(Ray ray, float a, float b, float offset, bool tail, inout Ext
 #if HAS_SUN
     vec3 to_sun = -sun_direction();
     SunSegment sun;
-#if HAS_HEIGHT
+#if HEIGHT_MEDIA
     Extinction sun_back = to_extinction(sun_optical_depth(ray.origin.y + ray.direction.y * b, to_sun));
     sun = sun_segment(depth, sun_front, sun_back, path_length);
     sun_front = sun_back;

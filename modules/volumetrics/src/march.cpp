@@ -9,10 +9,10 @@ namespace {
 const ProgramDesc program{.name = "volumetrics/march",
                           .stages = {{GL_VERTEX_SHADER, "shaders/volumetrics/march.vert"},
                                      {GL_FRAGMENT_SHADER, "shaders/volumetrics/march.frag"}},
-                          .axes = {{"HAS_HEIGHT", {0, 1}},
+                          .axes = {{"HEIGHT_MEDIA", {0, 1, MAX_HEIGHT_MEDIA}},
                                    {"LOCAL_MEDIA", {0, 1, 2}},  // 2: some emit
                                    {"HAS_SUN", {0, 1}},
-                                   {"LAMPS", {0, 1, 2}},  // 1: sampled, 2: over the segment
+                                   {"LAMPS", {0, 1, 2}},  // 1 + LampIntegration
                                    {"CHROMATIC", {0, 1}},
                                    {"COUNT_WORK", {0, 1}}},
                           .valid = {}};
@@ -20,10 +20,14 @@ const ProgramRegistry::Registration registration(program);
 
 Permutation permutation(const Inputs& inputs, const Settings& settings, const FrameMedia& media) {
     const bool local = !media.local.empty();
-    const int lamps = settings.lamp_integration == LampIntegration::segment ? 2 : 1;
-    return {{"HAS_HEIGHT", media.has_height}, {"LOCAL_MEDIA", local + (local && media.local_emission)},
-            {"HAS_SUN", inputs.has_sun},      {"LAMPS", inputs.has_lamps ? lamps : 0},
-            {"CHROMATIC", media.chromatic},   {"COUNT_WORK", inputs.count_work}};
+    const int lamps = 1 + static_cast<int>(settings.lamp_integration);
+    const int heights = static_cast<int>(media.data.counts.x);
+    return {{"HEIGHT_MEDIA", heights > 1 ? MAX_HEIGHT_MEDIA : heights},
+            {"LOCAL_MEDIA", local + (local && media.local_emission)},
+            {"HAS_SUN", inputs.has_sun},
+            {"LAMPS", inputs.has_lamps ? lamps : 0},
+            {"CHROMATIC", media.chromatic},
+            {"COUNT_WORK", inputs.count_work}};
 }
 
 }  // namespace

@@ -73,7 +73,6 @@ void add_global(const Inputs& inputs, FrameMedia& media) {
     }
     if (heights > MAX_HEIGHT_MEDIA)
         throw Error(fmt::format("volumetrics: {} height media, at most {} expected", heights, MAX_HEIGHT_MEDIA));
-    media.has_height = heights > 0;
     media.data.counts.x = static_cast<unsigned>(heights);
 }
 

@@ -20,7 +20,6 @@ struct FrameMedia {
     std::vector<shared::LocalMedium> local;
     std::vector<IndexBox> local_froxels;  ///< that each local medium may touch
     bool has_global = false;
-    bool has_height = false;
     bool local_emission = false;
     bool chromatic = false;  ///< some medium's extinction is coloured
 

@@ -32,8 +32,9 @@ const SettingsTable& settings_table() {
                   1, 100000, Scale::logarithmic)
             .choice(&S::lamp_integration,
                     {"lamp_integration", "Lamp integration",
-                     "Light of lamps at one point of each segment, or by the closed form over the segment, which "
-                     "costs more per lamp and needs far fewer steps."},
+                     "Light of lamps at one point of each segment; or over the segment, with the closed form of "
+                     "the inverse "
+                     "square, which costs more per lamp and needs far fewer steps."},
                     {"center", "segment"}, Effect::permutation)
             .boolean(
                 &S::light_transmittance,

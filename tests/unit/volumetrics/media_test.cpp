@@ -37,7 +37,6 @@ TEST(VolumetricsMedia, HomogeneousMediaAddAndAverageTheirAnisotropyByScattering)
     EXPECT_NEAR(media.data.homogeneous_sigma_t.r, 0.5, 1e-6);
     EXPECT_EQ(media.data.homogeneous_emission.g, 1);
     EXPECT_TRUE(media.has_global);
-    EXPECT_FALSE(media.has_height);
     EXPECT_TRUE(media.chromatic);
 }
 
