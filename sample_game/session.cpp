@@ -17,10 +17,11 @@ namespace {
 
 constexpr int max_side = 16384;
 
-Scene load_scene(const DrawOptions& o) {
+Scene load_scene(const DrawOptions& o, bool window) {
     Scene scene = load_gltf(o.scene);
     if (o.media) scene.media = load_media(*o.media);
     add_missing_camera(scene);
+    if (window) add_missing_sun(scene);
     animate(scene, 0);
     return scene;
 }
@@ -68,7 +69,7 @@ Session::Session(const DrawOptions& o, bool window) : size(o.pixels()) {
     request.size = size;
     request.window = window;
 
-    scene = load_scene(o);
+    scene = load_scene(o, window);
     context = create_context(request);
     shaders = std::make_unique<ShaderLibrary>(data_root());
     timer = std::make_unique<gl::GpuTimer>(gl::TimerMode::off);

@@ -7,7 +7,7 @@ namespace tyndall {
 /// Quality and look of the renderer itself. Ranges, units, help: `render_settings_table()`.
 struct RenderSettings {
     float exposure_bias = 0;  ///< stops, added to the scene's exposure
-    float ambient = 1;        ///< factor on the sky's light
+    float ambient = 0.4f;     ///< factor on the sky's light: nothing here blocks it, so 1 is light of an open plain
     bool shadows = true;
     int cascade_size = 1024;        ///< px per side of each of the 4 cascades
     float cascade_distance = 80;    ///< m of view depth the cascades cover

@@ -62,7 +62,7 @@ std::optional<std::size_t> Scene::sun() const {
     return static_cast<std::size_t>(found - lights.begin());
 }
 
-void add_missing_camera(Scene& scene) {
+void add_missing_sun(Scene& scene) {
     if (scene.lights.empty()) {
         Light light;
         light.name = "default sun";
@@ -73,6 +73,9 @@ void add_missing_camera(Scene& scene) {
         scene.nodes.back().light = static_cast<int>(scene.lights.size());
         scene.lights.push_back(light);
     }
+}
+
+void add_missing_camera(Scene& scene) {
     if (scene.cameras.empty()) {
         const bool empty = scene.bounds.empty();
         const glm::vec3 center = empty ? glm::vec3(0) : (scene.bounds.min + scene.bounds.max) * 0.5f;

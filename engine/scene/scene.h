@@ -140,8 +140,10 @@ void animate(Scene& scene, double time, const std::string& except = "flythrough"
 void animate_one(Scene& scene, const Animation& animation, double time);
 void update_world_transforms(Scene& scene);
 
-/// Adds a default sun, camera framing the bounds, where the scene has none of the sort (Box.glb and the like).
+/// Adds a camera that frames the bounds, if the scene has none.
 void add_missing_camera(Scene& scene);
+/// Adds a sun, if the scene has no light at all: for a visitor of an unlit model. Pictures and measurements do not.
+void add_missing_sun(Scene& scene);
 
 /// Loads .gltf or .glb. Only files inside the scene's folder are read. Throws Error: path, what, expected. Bad
 /// numbers (NaN, Inf, negative intensity, indices out of range) are errors.

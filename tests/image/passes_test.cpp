@@ -91,8 +91,7 @@ TEST_F(Passes, SunOnlyNeedsNoClustersAndNoAtlas) {
     EXPECT_TRUE(runs(frame, "shadow_sun"));
     for (const char* absent : {"depth_pyramid", "light_cull", "cluster", "shadow_atlas"})
         EXPECT_FALSE(runs(frame, absent)) << absent;
-    EXPECT_EQ(frame.stats["work"]["volumetrics/march"]["light_evaluations"], 64 * 36 * 8)
-        << "the sun, once a sample";
+    EXPECT_EQ(frame.stats["work"]["volumetrics/march"]["light_evaluations"], 0) << "that is lamps";
 }
 
 TEST_F(Passes, LampOnlyNeedsNoSunShadows) {
@@ -127,8 +126,11 @@ TEST_F(Passes, NoLightStillAbsorbs) {
     EXPECT_EQ(frame.stats["work"]["volumetrics/march"].value("shadow_lookups", 0), 0);
 }
 
-std::uint64_t march_evaluations(const Frame& frame) {
-    return frame.stats["work"]["volumetrics/march"]["light_evaluations"].get<std::uint64_t>();
+double march_work(const Frame& frame, const std::string& kind) {
+    return frame.stats["work"]["volumetrics/march"][kind].get<double>();
+}
+double march_evaluations(const Frame& frame) {
+    return march_work(frame, "light_evaluations");
 }
 
 /// Sixteen lamps in view, the others far behind the camera.
@@ -147,16 +149,17 @@ TEST_F(Passes, MarchCostDoesNotGrowWithTheLampsOfTheLevel) {
     const Frame few = draw({.lamps = lamps_of_a_big_level(16), .media = global_medium});
     const Frame many = draw({.lamps = lamps_of_a_big_level(4096), .media = global_medium});
     EXPECT_EQ(many.stats["facts"]["local_lights_in_view"], 16);
-    EXPECT_GT(march_evaluations(few), 1000u);
-    EXPECT_LT(static_cast<double>(march_evaluations(many)), 1.05 * static_cast<double>(march_evaluations(few)));
+    EXPECT_GT(march_evaluations(few), 1000);
+    EXPECT_LT(march_evaluations(many), 1.05 * march_evaluations(few));
 }
 
 TEST_F(Passes, MarchCostIsLinearInStepsAndInLampsPerCluster) {
     const SceneSpec sun{.sun = true, .media = global_medium};
     const auto at_8 = draw(sun, {"--set", "steps=8"}), at_32 = draw(sun, {"--set", "steps=32"});
-    EXPECT_EQ(march_evaluations(at_32), 4 * march_evaluations(at_8));
-    EXPECT_EQ(at_32.stats["work"]["volumetrics/march"]["shadow_lookups"],
-              4 * at_8.stats["work"]["volumetrics/march"]["shadow_lookups"].get<std::uint64_t>());
+    // A sample more a pixel is the closed form behind the march; points outside the sun's maps need no lookup.
+    EXPECT_NEAR(march_work(at_32, "medium_samples"), 4 * march_work(at_8, "medium_samples"), 3 * 64 * 36);
+    EXPECT_NEAR(march_work(at_32, "shadow_lookups"), 4 * march_work(at_8, "shadow_lookups"),
+                0.02 * march_work(at_32, "shadow_lookups"));
 
     // Lamps at one place share their clusters.
     const SceneSpec one{.lamps = {lamp}, .media = global_medium};

@@ -145,6 +145,8 @@ TEST(Scene, WhatIsMissingFramesTheBounds) {
     scene.bounds = {{-1, 2, -3}, {5, 4, 3}};
     scene.exposure_ev100 = 3;
     add_missing_camera(scene);
+    EXPECT_TRUE(scene.lights.empty());
+    add_missing_sun(scene);
     ASSERT_EQ(scene.cameras.size(), 1u);
     ASSERT_EQ(scene.lights.size(), 1u);
     ASSERT_TRUE(scene.sun());
@@ -157,6 +159,7 @@ TEST(Scene, WhatIsMissingFramesTheBounds) {
         EXPECT_LT(std::abs(seen.x / seen.z), std::tan(scene.cameras[0].yfov / 2));
     }
     add_missing_camera(scene);
+    add_missing_sun(scene);
     EXPECT_EQ(scene.cameras.size() + scene.lights.size(), 2u);
 }
 
