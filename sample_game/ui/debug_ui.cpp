@@ -32,7 +32,7 @@ void style() {
     ImGuiStyle& s = ImGui::GetStyle();
     s.WindowRounding = 6;
     s.FrameRounding = 4;
-    s.Colors[ImGuiCol_WindowBg] = ImVec4(0.06f, 0.06f, 0.07f, 0.88f);
+    s.Colors[ImGuiCol_WindowBg] = ImVec4(0.06f, 0.06f, 0.07f, 0.95f);
     s.Colors[ImGuiCol_TitleBgActive] = ImVec4(0.35f, 0.22f, 0.09f, 1);
     s.Colors[ImGuiCol_Header] = ImVec4(0.42f, 0.28f, 0.12f, 0.6f);
     s.Colors[ImGuiCol_HeaderHovered] = ImVec4(0.55f, 0.36f, 0.15f, 0.8f);

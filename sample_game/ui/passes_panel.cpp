@@ -9,13 +9,13 @@ namespace tyndall {
 namespace {
 
 constexpr ImGuiTableFlags table_flags =
-    ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp | ImGuiTableFlags_BordersInnerV;
+    ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchSame | ImGuiTableFlags_BordersInnerV;
 
 void times_table(const Renderer& renderer) {
     if (!ImGui::BeginTable("times", 3, table_flags)) return;
     ImGui::TableSetupColumn("pass", 0, 3);
-    ImGui::TableSetupColumn("GPU ms");
-    ImGui::TableSetupColumn("CPU ms");
+    ImGui::TableSetupColumn("GPU ms", 0, 1);
+    ImGui::TableSetupColumn("CPU ms", 0, 1);
     ImGui::TableHeadersRow();
     double gpu = 0, cpu = 0;
     for (const gl::GpuTimer::Scope& scope : renderer.timings()) {
@@ -48,23 +48,21 @@ std::string short_count(std::uint64_t n) {
     return fmt::format("{:.1f} G", value * 1e-9);
 }
 
-/// "shadow_lookups" on two lines.
-std::string column_title(std::string name) {
-    std::replace(name.begin(), name.end(), '_', '\n');
-    return name;
-}
-
 void work_table(const Renderer& renderer) {
     constexpr int kinds = static_cast<int>(gl::Work::count);
+    ImGui::TextDisabled("samples of the medium, shadow lookups,\nevaluations of lights, texture fetches");
     if (!ImGui::BeginTable("work", kinds + 1, table_flags)) return;
     ImGui::TableSetupColumn("pass", 0, 1.7f);
-    for (int i = 0; i < kinds; ++i)
-        ImGui::TableSetupColumn(column_title(gl::to_string(static_cast<gl::Work>(i))).c_str());
+    for (int i = 0; i < kinds; ++i) {
+        const std::string kind = gl::to_string(static_cast<gl::Work>(i));
+        ImGui::TableSetupColumn(kind.substr(0, kind.find('_')).c_str());
+    }
     ImGui::TableHeadersRow();
     for (const auto& [pass, counts] : renderer.work()) {
         ImGui::TableNextRow();
         ImGui::TableNextColumn();
-        ImGui::TextUnformatted(pass.c_str());
+        ImGui::TextUnformatted(pass.substr(pass.rfind('/') + 1).c_str());
+        if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", pass.c_str());
         for (const std::uint64_t n : counts) {
             ImGui::TableNextColumn();
             ImGui::TextUnformatted(short_count(n).c_str());

@@ -49,6 +49,20 @@ int slice_count(const gl::TextureDesc& desc) {
     }
 }
 
+bool has_one_channel(GLenum format) {
+    switch (format) {
+        case GL_R8:
+        case GL_R16F:
+        case GL_R32F:
+        case GL_DEPTH_COMPONENT16:
+        case GL_DEPTH_COMPONENT24:
+        case GL_DEPTH_COMPONENT32F:
+            return true;
+        default:
+            return false;
+    }
+}
+
 /// The transient that used `t`'s memory after it, so that its content is gone; null if none did.
 const PassList::TextureInfo* overwritten_by(const PassList::TextureInfo& t,
                                             const std::vector<PassList::TextureInfo>& textures) {
@@ -90,7 +104,7 @@ void TextureViewer::draw(const gl::TextureView& texture) {
     program.set("u_slice", volume ? (slice + 0.5f) / static_cast<float>(texture.desc.size.z) : slice);
     program.set("u_low", low_);
     program.set("u_high", high_);
-    program.set("u_channels", channels_);
+    program.set("u_channels", has_one_channel(texture.desc.format) ? 1 : channels_);
     program.set("u_size", glm::vec2(picture_.size()));
     glBindTextureUnit(0, texture.id);
     glBindSampler(0, sampler_.id());
@@ -145,7 +159,8 @@ void TextureViewer::panel(const PassList& passes) {
         const int slices = slice_count(shown->desc);
         slice_ = std::clamp(slice_, 0, slices - 1);
         if (slices > 1) ImGui::SliderInt("slice", &slice_, 0, slices - 1);
-        ImGui::Combo("channels", &channels_, "rgb\0red\0green\0blue\0alpha\0");
+        if (!has_one_channel(shown->desc.format))
+            ImGui::Combo("channels", &channels_, "rgb\0red\0green\0blue\0alpha\0");
         ImGui::DragFloatRange2("range", &low_, &high_, 0.01f, -1e5f, 1e5f, "%.4g");
         ImGui::SameLine();
         if (ImGui::Button("fit")) fit_range(texture);
