@@ -7,12 +7,13 @@
 #include "shaders/volumetrics/data.glsl"
 #include "shaders/volumetrics/ray.glsl"
 
-// One group is one tile of modules/volumetrics/src/froxel_tiles.h.
+// One group is one tile that holds media, see modules/volumetrics/src/froxel_tiles.h. The volume was cleared before.
 layout(local_size_x = 16, local_size_y = 16) in;
 
 layout(std430, binding = BINDING_LOCAL_MEDIA) readonly buffer LocalMediaBuffer { LocalMedium local_media[]; };
-// Per tile, x first: a bit for each medium that may touch it, in words of 32.
+// Per tile: x | y << 10 | z << 20, then a bit for each medium that may touch it, in words of 32.
 layout(std430, binding = BINDING_MEDIA_TILES) readonly buffer MediaTileBuffer { uint media_tiles[]; };
+uniform uint tile_count;
 
 layout(rgba16f, binding = 0) writeonly uniform image3D froxel_scattering;
 layout(rgba16f, binding = 1) writeonly uniform image3D froxel_extinction;
@@ -34,7 +35,12 @@ float local_density(LocalMedium medium, vec3 point) {
 
 void main() {
     ivec3 size = imageSize(froxel_scattering);
-    ivec3 froxel = ivec3(gl_GlobalInvocationID);
+    uint words = (volumetrics.counts.y + 31u) / 32u;
+    uint group = gl_WorkGroupID.x + gl_NumWorkGroups.x * gl_WorkGroupID.y;
+    if (group >= tile_count) return;
+    uint first = group * (1u + words);
+    uvec3 tile = (uvec3(media_tiles[first]) >> uvec3(0u, 10u, 20u)) & 1023u;
+    ivec3 froxel = ivec3(tile * gl_WorkGroupSize + gl_LocalInvocationID);
     if (any(greaterThanEqual(froxel, size))) return;
 
     vec3 uvw = froxel_uvw_from_index(froxel, vec3(0.0), size);
@@ -46,11 +52,8 @@ void main() {
     vec4 scattering = vec4(0.0);
     vec3 extinction = vec3(0.0);
     vec3 emission = vec3(0.0);
-    uint words = (volumetrics.counts.y + 31u) / 32u;
-    uvec3 tile = gl_WorkGroupID;
-    uint first = words * (tile.x + gl_NumWorkGroups.x * (tile.y + gl_NumWorkGroups.y * tile.z));
     for (uint word = 0u; word < words; ++word) {
-        for (uint bits = media_tiles[first + word]; bits != 0u; bits &= bits - 1u) {
+        for (uint bits = media_tiles[first + 1u + word]; bits != 0u; bits &= bits - 1u) {
             LocalMedium medium = local_media[32u * word + uint(findLSB(bits))];
             count_work(WORK_MEDIUM_SAMPLES, 1u);
             float density = local_density(medium, point);

@@ -69,25 +69,30 @@ IndexBox froxel_bounds(const LocalMedium& medium, const Inputs& inputs, const Fr
     return box;
 }
 
-glm::ivec3 tile_counts(glm::ivec3 froxels) {
-    return (froxels + froxel_tile - 1) / froxel_tile;
-}
-
-std::vector<std::uint32_t> tile_masks(std::span<const IndexBox> boxes, glm::ivec3 froxels) {
-    const glm::ivec3 tiles = tile_counts(froxels);
+std::vector<std::uint32_t> live_tiles(std::span<const IndexBox> boxes, glm::ivec3 froxels) {
+    const glm::ivec3 tiles = (froxels + froxel_tile - 1) / froxel_tile;
     const std::size_t words = (boxes.size() + 31) / 32;
     std::vector<std::uint32_t> masks(words * static_cast<std::size_t>(tiles.x) * tiles.y * tiles.z);
+    const auto mask = [&](int x, int y, int z) {
+        return masks.begin() + static_cast<std::ptrdiff_t>(words) * (x + tiles.x * (y + tiles.y * z));
+    };
     for (std::size_t i = 0; i < boxes.size(); ++i) {
         const glm::ivec3 lower = boxes[i].lower / froxel_tile;
         const glm::ivec3 upper = (boxes[i].upper + froxel_tile - 1) / froxel_tile;
         for (int z = lower.z; z < upper.z; ++z)
             for (int y = lower.y; y < upper.y; ++y)
-                for (int x = lower.x; x < upper.x; ++x) {
-                    const std::size_t tile = x + static_cast<std::size_t>(tiles.x) * (y + tiles.y * z);
-                    masks[tile * words + i / 32] |= 1U << (i % 32);
-                }
+                for (int x = lower.x; x < upper.x; ++x) mask(x, y, z)[i / 32] |= 1U << (i % 32);
     }
-    return masks;
+    std::vector<std::uint32_t> live;
+    for (int z = 0; z < tiles.z; ++z)
+        for (int y = 0; y < tiles.y; ++y)
+            for (int x = 0; x < tiles.x; ++x) {
+                const auto first = mask(x, y, z), last = first + static_cast<std::ptrdiff_t>(words);
+                if (std::all_of(first, last, [](std::uint32_t word) { return word == 0; })) continue;
+                live.push_back(static_cast<std::uint32_t>(x | y << 10 | z << 20));
+                live.insert(live.end(), first, last);
+            }
+    return live;
 }
 
 }  // namespace tyndall::volumetrics

@@ -21,9 +21,8 @@ struct FroxelGrid {
 
 /// Froxels of one tile: one work group of shaders/volumetrics/inject_media.comp.
 constexpr glm::ivec3 froxel_tile{16, 16, 1};
-[[nodiscard]] glm::ivec3 tile_counts(glm::ivec3 froxels);
-
-/// For each tile, x first: (boxes.size() + 31) / 32 words, in which bit i says that box i meets the tile.
-[[nodiscard]] std::vector<std::uint32_t> tile_masks(std::span<const IndexBox> boxes, glm::ivec3 froxels);
+/// The tiles that some box meets, in the order z, y, x: for each, x | y << 10 | z << 20 and then
+/// (boxes.size() + 31) / 32 words, in which bit i says that box i meets the tile.
+[[nodiscard]] std::vector<std::uint32_t> live_tiles(std::span<const IndexBox> boxes, glm::ivec3 froxels);
 
 }  // namespace tyndall::volumetrics

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "froxel_tiles.h"
 #include "passes.h"
 #include "shaders/shared/bindings.h"
@@ -31,10 +33,11 @@ FroxelMedia add_inject_media(PassList& passes, const PassResources& resources, c
             froxels.extinction = builder.storage_write(froxels.extinction);
             if (froxels.emission) froxels.emission = builder.storage_write(froxels.emission);
         },
-        [froxels, size, &shader, &resources](const PassContext& context) {
+        [froxels, tiles = static_cast<GLuint>(media.live_tiles), &shader, &resources](const PassContext& context) {
             const auto bind_image = [&](GLuint unit, TextureRef ref) {
-                if (ref)
-                    glBindImageTexture(unit, context.texture(ref).id, 0, GL_TRUE, 0, GL_WRITE_ONLY, GL_RGBA16F);
+                if (!ref) return;
+                glClearTexImage(context.texture(ref).id, 0, GL_RGBA, GL_FLOAT, nullptr);
+                glBindImageTexture(unit, context.texture(ref).id, 0, GL_TRUE, 0, GL_WRITE_ONLY, GL_RGBA16F);
             };
             bind_image(0, froxels.scattering);
             bind_image(1, froxels.extinction);
@@ -42,9 +45,10 @@ FroxelMedia add_inject_media(PassList& passes, const PassResources& resources, c
             resources.uniforms.bind(GL_UNIFORM_BUFFER, BINDING_VOLUMETRICS);
             resources.local_media.bind(GL_SHADER_STORAGE_BUFFER, BINDING_LOCAL_MEDIA);
             resources.media_tiles.bind(GL_SHADER_STORAGE_BUFFER, BINDING_MEDIA_TILES);
+            shader.set("tile_count", tiles);
             shader.use();
-            const glm::uvec3 groups = tile_counts(size);
-            glDispatchCompute(groups.x, groups.y, groups.z);
+            constexpr GLuint row = 1024;  // more groups than one dimension takes
+            glDispatchCompute(std::min(tiles, row), (tiles + row - 1) / row, 1);
         });
     return froxels;
 }

@@ -8,7 +8,7 @@
 
 namespace tyndall::volumetrics {
 
-/// A range of froxels, or of tiles of them: lower corner included, upper not.
+/// A range of froxels: lower corner included, upper not.
 struct IndexBox {
     glm::ivec3 lower{0}, upper{0};
     [[nodiscard]] bool empty() const { return lower.x >= upper.x || lower.y >= upper.y || lower.z >= upper.z; }
@@ -19,6 +19,7 @@ struct FrameMedia {
     shared::VolumetricsData data{};
     std::vector<shared::LocalMedium> local;
     std::vector<IndexBox> local_froxels;  ///< that each local medium may touch
+    std::size_t live_tiles = 0;           ///< of the froxel volume: entries of live_tiles()
     bool has_global = false;
     bool local_emission = false;
     bool chromatic = false;  ///< some medium's extinction is coloured

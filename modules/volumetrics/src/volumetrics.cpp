@@ -56,10 +56,11 @@ struct Volumetrics::Impl {
             resources.media_tiles = {};
         } else {
             const glm::ivec3 froxels{settings.froxels_x, settings.froxels_y, settings.froxels_z};
-            const std::vector<std::uint32_t> masks = tile_masks(media.local_froxels, froxels);
+            const std::vector<std::uint32_t> tiles = live_tiles(media.local_froxels, froxels);
+            media.live_tiles = tiles.size() / (1 + (media.local.size() + 31) / 32);
             resources.local_media.assign(std::span<const shared::LocalMedium>(media.local),
                                          "volumetrics local media");
-            resources.media_tiles.assign(std::span<const std::uint32_t>(masks), "volumetrics media tiles");
+            resources.media_tiles.assign(std::span<const std::uint32_t>(tiles), "volumetrics media tiles");
         }
         const std::tuple key(settings.dither, settings.dither == Dither::none ? 1 : settings.dither_size);
         if (!resources.dither || key != dither_key) {

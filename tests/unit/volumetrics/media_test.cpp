@@ -109,23 +109,25 @@ TEST(VolumetricsMedia, FroxelBoundsHoldEveryPointInView) {
     }
 }
 
-TEST(VolumetricsMedia, TileMasksHoldWhichBoxesMeetWhichTiles) {
-    const glm::ivec3 froxels{50, 33, 5};
-    std::vector<IndexBox> boxes(40, IndexBox{{0, 0, 0}, {50, 33, 5}});
+TEST(VolumetricsMedia, LiveTilesHoldWhichBoxesMeetWhichTiles) {
+    const glm::ivec3 froxels{50, 33, 5};  // 4 x 3 x 5 tiles
+    std::vector<IndexBox> boxes(40, IndexBox{{0, 0, 0}, {50, 33, 3}});
     boxes[0] = {{15, 0, 2}, {17, 1, 3}};
     boxes[33] = {{48, 32, 4}, {50, 33, 5}};
-    const glm::ivec3 tiles = tile_counts(froxels);
-    EXPECT_EQ(tiles, glm::ivec3(4, 3, 5));
-    const std::vector<std::uint32_t> masks = tile_masks(boxes, froxels);
-    ASSERT_EQ(masks.size(), 2U * 4 * 3 * 5);
-    for (int z = 0; z < 5; ++z)
-        for (int y = 0; y < 3; ++y)
-            for (int x = 0; x < 4; ++x) {
-                const std::size_t tile = x + 4 * (y + 3 * z);
-                EXPECT_EQ(masks[2 * tile] & 1U, unsigned(x < 2 && y == 0 && z == 2));
-                EXPECT_EQ(masks[2 * tile] >> 1, 0x7fffffffU);
-                EXPECT_EQ(masks[2 * tile + 1], (x == 3 && y == 2 && z == 4) ? 0xffU : 0xfdU);
+    const std::vector<std::uint32_t> live = live_tiles(boxes, froxels);
+    std::size_t next = 0;
+    for (unsigned z = 0; z < 5; ++z)
+        for (unsigned y = 0; y < 3; ++y)
+            for (unsigned x = 0; x < 4; ++x) {
+                const bool last = x == 3 && y == 2 && z == 4;
+                if (z >= 3 && !last) continue;  // empty
+                ASSERT_LE(next + 3, live.size());
+                EXPECT_EQ(live[next], x | y << 10 | z << 20);
+                EXPECT_EQ(live[next + 1], last ? 0U : 0xfffffffeU | unsigned(x < 2 && y == 0 && z == 2));
+                EXPECT_EQ(live[next + 2], last ? 2U : 0xfdU);
+                next += 3;
             }
+    EXPECT_EQ(next, live.size());
 }
 
 TEST(VolumetricsMedia, DitherTilesHoldEveryOffsetOnce) {

@@ -25,7 +25,7 @@ struct Settings {
     Dither dither = Dither::bayer;
     int dither_size = 8;
     Blur blur = Blur::bilateral;
-    float blur_sigma = 1.5f;
+    float blur_sigma = 2.0f;
     float blur_depth_falloff = 3.0f;
     int froxels_x = 160, froxels_y = 90, froxels_z = 64;
     float froxel_far = 128;
