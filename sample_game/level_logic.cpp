@@ -11,8 +11,8 @@ LevelLogic::LevelLogic(const Scene& scene) : media_(scene.media), exposure_(scen
         if (sun_.node >= 0) sun_rotation_ = scene.nodes[sun_.node].rotation;
         day_times_ = {{"as made", 0, 0, glm::vec3(1), 0, exposure_},
                       {"dawn", 6, 150, {1.0f, 0.62f, 0.42f}, 400, exposure_ - 0.5f},
-                      {"morning", 28, 100, {1.0f, 0.9f, 0.76f}, 3500, exposure_ + 1.6f},
-                      {"noon", 62, 40, {1.0f, 0.97f, 0.92f}, 9000, exposure_ + 2.8f},
+                      {"morning", 28, 100, {1.0f, 0.9f, 0.76f}, 3500, exposure_ + 2.5f},
+                      {"noon", 62, 40, {1.0f, 0.97f, 0.92f}, 9000, exposure_ + 4.0f},
                       {"night", 35, -60, {0.55f, 0.68f, 1.0f}, 12, exposure_ - 2.0f}};
     } else {
         day_times_ = {{"as made", 0, 0, glm::vec3(1), 0, exposure_}};

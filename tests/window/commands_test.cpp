@@ -1,0 +1,208 @@
+// What the commands print and write, on small scenes and pictures whose answers are known. No display needed.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+
+#include "engine/core/image.h"
+#include "support/command.h"
+#include "support/scenes.h"
+
+namespace tyndall::test {
+namespace {
+
+using nlohmann::json;
+
+std::string read(const std::filesystem::path& path) {
+    std::ifstream file(path);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+std::vector<std::string> lines(const std::string& text) {
+    std::vector<std::string> result;
+    std::istringstream stream(text);
+    for (std::string line; std::getline(stream, line);) result.push_back(line);
+    return result;
+}
+
+std::vector<std::string> cells(const std::string& line) {
+    std::vector<std::string> result;
+    std::istringstream stream(line);
+    for (std::string cell; std::getline(stream, cell, ',');) result.push_back(cell);
+    return result;
+}
+
+TEST(List, TechniquesPresetsScenes) {
+    const CommandResult techniques = run_tyndall({"list", "techniques"});
+    EXPECT_EQ(techniques.exit_code, 0);
+    const std::vector<std::string> names = lines(techniques.out);
+    EXPECT_EQ(std::count(names.begin(), names.end(), "off"), 1);
+    EXPECT_EQ(std::count(names.begin(), names.end(), "ray_march"), 1);
+    const std::vector<std::string> presets = lines(run_tyndall({"list", "presets"}).out);
+    EXPECT_EQ(std::count(presets.begin(), presets.end(), "fast"), 1);
+    for (const std::string& scene : lines(run_tyndall({"list", "scenes"}).out))
+        EXPECT_TRUE(std::filesystem::exists(scene)) << scene;
+}
+
+TEST(List, EverySettingHasARangeThatItsDefaultKeeps) {
+    const CommandResult result = run_tyndall({"list", "settings"});
+    EXPECT_EQ(result.exit_code, 0);
+    EXPECT_NE(result.out.find("steps"), std::string::npos);
+    EXPECT_NE(result.out.find("[none, white, bayer]"), std::string::npos);
+    const CommandResult markdown = run_tyndall({"list", "settings", "--markdown"});
+    EXPECT_NE(markdown.out.find("| `blur` |"), std::string::npos);
+    EXPECT_EQ(run_tyndall({"list"}).exit_code, 2);
+}
+
+class Compare : public ::testing::Test {
+  protected:
+    Compare() {
+        Image a({4, 2}, 3), b({4, 2}, 3);
+        a.at(1, 1)[2] = 0.6f;  // one of 24 values differs by 0.6
+        write_image(folder_ / "a.exr", a);
+        write_image(folder_ / "b.exr", b);
+    }
+    [[nodiscard]] std::string path(const char* name) const { return (folder_ / name).string(); }
+    TemporaryFolder folder_;
+};
+
+TEST_F(Compare, KnownDifference) {
+    const CommandResult result = run_tyndall({"compare", path("a.exr"), path("b.exr"), "--json"});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    const json d = json::parse(result.out);
+    EXPECT_NEAR(d.at("rmse").get<double>(), std::sqrt(0.36 / 24), 1e-6);
+    EXPECT_NEAR(d.at("relmse").get<double>(), 0.36 / 0.01 / 24, 1e-4);
+    EXPECT_NEAR(d.at("max").get<double>(), 0.6, 1e-6);
+}
+
+TEST_F(Compare, OnlyTheMetricsAskedForAndAHeatmap) {
+    const CommandResult result = run_tyndall(
+        {"compare", path("a.exr"), path("b.exr"), "--metric", "max,rmse", "--heatmap", path("heat.png"), "--json"});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(json::parse(result.out).size(), 2u);
+    const Image heat = read_image(path("heat.png"));
+    EXPECT_EQ(heat.size, glm::ivec2(4, 2));
+    EXPECT_GT(heat.at(1, 1)[0], 0.3f);
+    EXPECT_EQ(heat.at(0, 0)[0], 0.0f);
+}
+
+TEST_F(Compare, IdenticalPicturesHaveInfinitePsnr) {
+    const CommandResult text = run_tyndall({"compare", path("a.exr"), path("a.exr"), "--metric", "psnr"});
+    EXPECT_EQ(text.out, "psnr   inf\n");
+    const json d = json::parse(run_tyndall({"compare", path("a.exr"), path("a.exr"), "--json"}).out);
+    EXPECT_EQ(d.at("rmse"), 0);
+    EXPECT_TRUE(d.at("psnr").is_null());  // JSON has no infinity
+}
+
+TEST_F(Compare, OtherSizesAreAnError) {
+    write_image(folder_ / "c.exr", Image({3, 2}, 3));
+    const CommandResult result = run_tyndall({"compare", path("a.exr"), path("c.exr")});
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_EQ(lines(result.err).size(), 1u);
+}
+
+class Commands : public ::testing::Test {
+  protected:
+    Commands() {
+        write_scene(folder_ / "scene.gltf", {.sun = true,
+                                             .lamps = {{{0, 2, 0}}},
+                                             .media = R"([{"shape":"global","scattering":[0.05,0.05,0.05]}])"});
+    }
+    [[nodiscard]] std::string path(const char* name) const { return (folder_ / name).string(); }
+    TemporaryFolder folder_;
+};
+
+TEST_F(Commands, RenderWritesStatistics) {
+    const CommandResult result =
+        run_tyndall({"render", path("scene.gltf"), "-o", path("out.png"), "--size", "64x36", "--preset", "fast",
+                     "--set", "dither_size=4", "--stats", path("stats.json")});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(read_image(path("out.png")).size, glm::ivec2(64, 36));
+    const json stats = json::parse(read(path("stats.json")));
+    EXPECT_EQ(stats.at("size"), json({64, 36}));
+    EXPECT_EQ(stats.at("settings").at("steps"), 4);        // of the preset
+    EXPECT_EQ(stats.at("settings").at("dither_size"), 4);  // --set comes after the preset
+    EXPECT_EQ(stats.at("facts").at("has_sun"), true);
+    EXPECT_EQ(stats.at("facts").at("has_global_medium"), true);
+    EXPECT_EQ(stats.at("facts").at("has_local_media"), false);
+    EXPECT_EQ(stats.at("facts").at("local_lights_in_view"), 1);
+    std::set<std::string> live;
+    for (const json& pass : stats.at("passes")) {
+        if (pass.at("live"))
+            live.insert(pass.at("name"));
+        else
+            EXPECT_NE(pass.at("reason"), "") << pass;
+    }
+    EXPECT_TRUE(live.contains("volumetrics/march"));
+    for (const std::string& pass : live) EXPECT_TRUE(stats.at("times_ms").contains(pass)) << pass;
+    EXPECT_GT(stats.at("work").at("volumetrics/march").at("medium_samples").get<int>(), 0);
+}
+
+TEST_F(Commands, APresetOfAFileAppliesAndItsUnknownKeysDoNot) {
+    std::ofstream(folder_ / "mine.json") << R"({"steps": 3, "blur": "none"})";
+    const CommandResult result = run_tyndall({"render", path("scene.gltf"), "-o", path("out.png"), "--size", "16x9",
+                                              "--preset", path("mine.json"), "--stats", path("stats.json")});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    const json settings = json::parse(read(path("stats.json"))).at("settings");
+    EXPECT_EQ(settings.at("steps"), 3);
+    EXPECT_EQ(settings.at("blur"), "none");
+}
+
+const std::set<std::string> places{"LocalPM", "Close", "LocalLights", "Sun", "Depth", "Balance"};
+
+void check_flythrough(const std::filesystem::path& folder, std::size_t frames) {
+    const std::vector<std::string> rows = lines(read(folder / "frames.csv"));
+    ASSERT_EQ(rows.size(), frames + 1);
+    const std::vector<std::string> head = cells(rows[0]);
+    ASSERT_GE(head.size(), 4u);
+    EXPECT_EQ(std::vector<std::string>(head.begin(), head.begin() + 3),
+              (std::vector<std::string>{"frame", "time_s", "place"}));
+    EXPECT_EQ(std::count(head.begin(), head.end(), "volumetrics/march"), 1);
+    for (std::size_t i = 1; i < rows.size(); ++i) EXPECT_TRUE(places.contains(cells(rows[i]).at(2))) << rows[i];
+
+    const std::vector<std::string> summary = lines(read(folder / "summary.csv"));
+    ASSERT_FALSE(summary.empty());
+    EXPECT_EQ(summary[0], "part,frames,mean_ms,deviation_ms,variance_ms2");
+    std::set<std::string> parts;
+    for (std::size_t i = 1; i < summary.size(); ++i) {
+        const std::vector<std::string> row = cells(summary[i]);
+        ASSERT_EQ(row.size(), 5u);
+        parts.insert(row[0]);
+        EXPECT_EQ(std::stoul(row[1]), frames);
+        const double deviation = std::stod(row[3]), variance = std::stod(row[4]);
+        EXPECT_NEAR(deviation * deviation, variance, 1e-3 + 1e-3 * variance) << summary[i];
+    }
+    for (const char* part : {"Ray march", "Blur", "Composite", "Whole frame"}) EXPECT_TRUE(parts.contains(part));
+    const std::string markdown = read(folder / "summary.md");
+    EXPECT_NE(markdown.find("| part | frames | mean (ms) | standard deviation (ms) | variance (ms²) |"),
+              std::string::npos);
+    for (const std::string& place : places) {
+        const Image still = read_image(folder / (place + ".png"));
+        EXPECT_EQ(still.size, glm::ivec2(64, 36)) << place;
+    }
+}
+
+TEST_F(Commands, FlythroughWritesTablesAndAStillOfEveryPlace) {
+    const CommandResult result =
+        run_tyndall({"flythrough", level(), "--out", path("fly"), "--size", "64x36", "--set",
+                     "lamp_integration=center", "--duration", "1", "--frames-per-second", "2"});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    check_flythrough(folder_ / "fly", 3);
+}
+
+TEST_F(Commands, PlayWithoutADisplaySaysSoAndFliesThrough) {
+    const CommandResult result = run_tyndall({"play", level(), "--out", path("fly"), "--size", "64x36", "--set",
+                                              "lamp_integration=center", "--duration", "0.5"},
+                                             {"DISPLAY", "WAYLAND_DISPLAY"});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    ASSERT_EQ(lines(result.err).size(), 1u) << result.err;
+    EXPECT_NE(result.err.find("no display"), std::string::npos);
+    EXPECT_NE(result.err.find(path("fly")), std::string::npos);
+    check_flythrough(folder_ / "fly", 3);
+}
+
+}  // namespace
+}  // namespace tyndall::test

@@ -1,0 +1,145 @@
+// The game in a window, as a player uses it: real key and mouse events through the X server.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <iostream>
+
+#include "engine/scene/scene.h"
+#include "support/game_process.h"
+#include "volumetrics/settings.h"
+
+namespace tyndall::test {
+namespace {
+
+glm::vec3 vector(const nlohmann::json& j) {
+    return {j.at(0), j.at(1), j.at(2)};
+}
+glm::vec3 eye(const GameProcess::State& s) {
+    return vector(s.stats.at("player").at("eye"));
+}
+glm::vec3 direction(const GameProcess::State& s) {
+    return vector(s.stats.at("player").at("direction"));
+}
+std::string setting(const GameProcess::State& s, const char* key) {
+    return s.stats.at("settings").at(key);
+}
+
+/// Horizontal distance to the nearest of the level's places that is not where `from` is.
+float distance_to_next_place(const Scene& level, glm::vec3 from, glm::vec3 at) {
+    float nearest = 1e9f, result = 0;
+    for (const Camera& camera : level.cameras) {
+        const glm::vec3 place(level.nodes[static_cast<std::size_t>(camera.node)].world[3]);
+        const float d = glm::distance(glm::vec2(place.x, place.z), glm::vec2(from.x, from.z));
+        if (camera.name == "flythrough" || d < 12 || d > nearest) continue;
+        nearest = d;
+        result = glm::distance(glm::vec2(place.x, place.z), glm::vec2(at.x, at.z));
+    }
+    return result;
+}
+
+double mean_difference(const Image& a, const Image& b) {
+    double sum = 0;
+    for (std::size_t i = 0; i < a.pixels.size(); ++i) sum += std::abs(a.pixels[i] - b.pixels[i]);
+    return sum / static_cast<double>(a.pixels.size());
+}
+
+/// Rows of the debug UI's settings, in pixels of the window: Dear ImGui's default font and spacing.
+struct Row {
+    static constexpr int x = 120, first_y = 187, height = 23, popup = 24, item = 17;
+
+    static int y(const std::string& key) {
+        int row = 0;
+        for (const Setting& s : volumetrics::settings_table().settings()) {
+            if (s.key == key) return first_y + row * height;
+            ++row;
+        }
+        throw std::runtime_error("no setting " + key);
+    }
+};
+
+/// Opens the setting's combo and chooses its `index`th value.
+void choose(GameProcess& game, const std::string& key, int index) {
+    const auto click = [&](int y) {
+        game.move_pointer(Row::x, y);
+        game.frames(1);
+        game.click();
+        game.frames(2);
+    };
+    click(Row::y(key));
+    click(Row::y(key) + Row::popup + index * Row::item);
+}
+
+TEST(Window, WalkLookAndTheDebugUi) {
+    if (const std::string reason = GameProcess::missing(); !reason.empty()) {
+        std::cout << "skipped: " << reason << std::endl;  // gtest_brief does not say it
+        GTEST_SKIP() << reason;
+    }
+    GameProcess game({level(), "--size", "448x540", "--technique", "off", "--set", "lamp_integration=center",
+                      "--set", "steps=2", "--set", "shadows=false", "--set", "froxels_x=32", "--set",
+                      "froxels_y=24", "--set", "froxels_z=24"});
+    game.move_pointer(380, 300);
+
+    // On foot, in the direction the level's start looks.
+    const Scene scene = load_gltf(level());
+    const GameProcess::State start = game.state_when(
+        [](const auto& s) { return s.stats.at("player").at("on_ground").template get<bool>(); }, "ground");
+    EXPECT_FALSE(start.stats.at("player").at("flying").get<bool>());
+    game.key_down("w");
+    glm::vec3 last = eye(start);
+    const GameProcess::State walked = game.state_when(
+        [&](const auto& s) {
+            const glm::vec3 step = eye(s) - last;
+            EXPECT_LE(std::abs(step.y), 0.35f + std::hypot(step.x, step.z)) << "a jerk in height";
+            last = eye(s);
+            return glm::distance(last, eye(start)) > 3.5f;
+        },
+        "walk of 3.5 m");
+    game.key_up("w");
+    const float before = distance_to_next_place(scene, eye(start), eye(start));
+    const float after = distance_to_next_place(scene, eye(start), eye(walked));
+    EXPECT_LT(after, before - 2);
+    const GameProcess::State stopped = game.state_when(
+        [&](const auto& s) { return glm::distance(eye(s), std::exchange(last, eye(s))) < 0.01f; }, "standstill");
+    EXPECT_TRUE(stopped.stats.at("player").at("on_ground").get<bool>());
+
+    // A click takes the pointer, moving it turns the view, Esc gives it back.
+    game.click();
+    game.frames(1);
+    game.turn_pointer(200, 0);
+    const GameProcess::State turned = game.state_when(
+        [&](const auto& s) { return glm::dot(direction(s), direction(stopped)) < 0.95f; }, "turn of the view");
+    EXPECT_NEAR(direction(turned).y, direction(stopped).y, 0.05);
+    EXPECT_LT(glm::distance(eye(turned), eye(stopped)), 0.05f);
+    game.key("Escape");
+    game.frames(1);
+
+    // V brings the fog back; then the debug UI takes the blur and the dither away.
+    game.key("v");
+    game.state_when([](const auto& s) { return setting(s, "technique") == "ray_march"; }, "technique ray_march");
+    game.key("F1");
+    game.frames(2);
+    const GameProcess::State blurred = game.state(), same = game.state();
+    ASSERT_EQ(setting(blurred, "blur"), "bilateral");
+    ASSERT_EQ(setting(blurred, "dither"), "bayer");
+    EXPECT_GT(mean_difference(blurred.picture, turned.picture), 0.01) << "fog";
+    const double noise = mean_difference(blurred.picture, same.picture);
+
+    choose(game, "blur", 0);
+    const GameProcess::State grainy = game.state();
+    EXPECT_EQ(setting(grainy, "blur"), "none");
+    EXPECT_GT(mean_difference(grainy.picture, blurred.picture), 2 * noise + 0.5 / 255);
+
+    choose(game, "dither", 0);
+    const GameProcess::State banded = game.state();
+    EXPECT_EQ(setting(banded, "dither"), "none");
+    EXPECT_GT(mean_difference(banded.picture, grainy.picture), 2 * noise + 0.5 / 255);
+
+    game.key("Escape");  // the debug window
+    game.frames(1);
+    game.key("Escape");  // the game
+    EXPECT_EQ(game.wait_for_exit(), 0);
+    EXPECT_EQ(game.stats().at("gl_messages"), 0);
+}
+
+}  // namespace
+}  // namespace tyndall::test
