@@ -16,7 +16,7 @@ enum class DepthDistribution { linear, exponential };
 struct Settings {
     Technique technique = Technique::ray_march;
     int steps = 8;
-    Stepping stepping = Stepping::uniform;
+    Stepping stepping = Stepping::exponential;
     float stepping_strength = 1.0f;
     float max_distance = 256;
     LampIntegration lamp_integration = LampIntegration::segment;
