@@ -121,7 +121,7 @@ void Player::place(glm::vec3 eye, glm::vec3 direction) {
     yaw_ = std::atan2(-d.x, -d.z);
     pitch_ = std::clamp(std::asin(d.y), -max_pitch, max_pitch);
     eye_ = eye;
-    stair_offset_ = 0;
+    stair_offset_ = last_drop_ = 0;
     world_->warp(eye);
 }
 
@@ -193,7 +193,9 @@ void Player::walk(const Input& input, glm::vec2 move, float dt) {
         const float before = world_->eye().y;
         character.setWalkDirection(to_bullet(velocity * h));
         world_->world.stepSimulation(h, 0);
-        if (stood && character.onGround()) stair_offset_ += before - world_->eye().y;
+        const float drop = before - world_->eye().y;
+        if (character.onGround()) stair_offset_ += stood ? drop : std::max(drop - last_drop_, 0.0f);
+        last_drop_ = character.onGround() ? 0 : drop;
         stair_offset_ *= std::exp(-h / stair_time);
     }
     stair_offset_ = std::clamp(stair_offset_, -step_height, step_height);

@@ -41,7 +41,8 @@ class Player {
     glm::vec3 start_direction_{0, 0, -1};
     float yaw_ = 0, pitch_ = 0;
     float stair_offset_ = 0;  ///< m the eye lags behind the capsule, so that stairs are a ramp to it
-    float lowest_ = 0;        ///< below this the player has fallen out of the level
+    float last_drop_ = 0;  ///< m fallen in the last physics step; the controller drops more than that as it lands
+    float lowest_ = 0;     ///< below this the player has fallen out of the level
     bool flying_ = false;
 };
 
