@@ -10,6 +10,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/files.h"
+#include "engine/core/log.h"
 
 namespace tyndall {
 
@@ -76,6 +77,10 @@ Session::Session(const DrawOptions& o, bool window) : size(o.pixels()) {
     renderer = std::make_unique<Renderer>(*shaders);
     renderer->prepare(scene, context->capabilities().software ? 1.0f : 4.0f);
     options.timer = timer.get();
+    if (context->capabilities().software && options.volumetrics.steps > 256)
+        spdlog::warn(
+            "llvmpipe ends the loops of a shader after 65,535 iterations: {} steps among many lamps lose light",
+            options.volumetrics.steps);
 }
 
 void Session::draw(const View& view, double time) {

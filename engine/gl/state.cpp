@@ -14,8 +14,9 @@ void enable(GLenum capability, bool on) {
 
 void apply_blend(Blend blend) {
     enable(GL_BLEND, blend != Blend::none);
-    if (blend == Blend::none) return;
     glBlendEquation(GL_FUNC_ADD);
+    // A dual-source function left behind would make every draw with several targets an error, blended or not.
+    if (blend == Blend::none) return glBlendFunc(GL_ONE, GL_ZERO);
     // Premultiplied: alpha is a transmittance, and transmittances multiply.
     if (blend == Blend::premultiplied)
         glBlendFuncSeparate(GL_ONE, GL_SRC_ALPHA, GL_ZERO, GL_SRC_ALPHA);

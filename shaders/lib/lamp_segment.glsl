@@ -113,17 +113,6 @@ float lamp_advance(LampIntegral parts, float integral) {
            inverse_square_advance(parts.leave, parts.h, integral - parts.before - parts.inside);
 }
 
-// Angles seen from the lamp, from the ray's nearest point to u, at the three Gauss-Legendre nodes of [a, b]: the phase
-// function's cos_theta there is minus their sine (light travels from the lamp, leaves against the ray). The mean of
-// a phase function p over the light of the segment is dot(vec3(5, 8, 5) / 18, p(cos_theta)).
-vec3 lamp_cos_theta(float a, float b, float h) {
-    float begin = atan(a, h);
-    float end = atan(b, h);
-    float middle = 0.5f * (begin + end);
-    float reach = 0.5f * 0.77459667f * (end - begin);
-    return vec3(-sin(middle - reach), -sin(middle), -sin(middle + reach));
-}
-
 // Quadrature rule int_{t_begin}^{t_end} attenuation(d(t)) f(t) dt = sum_i weight_i f(t_i) for what else varies
 // along the segment: phase, transmittance, cone, visibility. The nodes are Gauss-Legendre in the integral of the
 // clamped inverse square, which outside the lamp's sphere is the angle seen from the lamp (equi-angular, Kulla and

@@ -1,5 +1,5 @@
 // The thesis' claim on the level's places: eight Bayer-dithered samples with a bilateral blur beat many undithered
-// ones and white noise, measured against 1,024 undithered steps.
+// ones and white noise, measured against 1,024 undithered steps (256 in LocalLights).
 #include <gtest/gtest.h>
 
 #include "engine/core/image.h"
@@ -24,7 +24,12 @@ class Dithering : public ::testing::TestWithParam<const char*> {
         EXPECT_EQ(result.exit_code, 0) << result.err;
         return read_image(out, 3);
     }
-    void SetUp() override { reference_ = draw({"steps=1024", "dither=none", "blur=none"}); }
+    // Among the many lamps of LocalLights fewer: llvmpipe ends the loops of a shader after 65,535 iterations in
+    // all.
+    void SetUp() override {
+        const bool lamps = std::string(GetParam()) == "LocalLights";
+        reference_ = draw({lamps ? "steps=256" : "steps=1024", "dither=none", "blur=none"});
+    }
     TemporaryFolder folder_;
     Image reference_;
 };

@@ -135,8 +135,17 @@ Mesh aisle_bay(const std::string& name, bool door, bool ruined) {
             sweep(m, Mat::Trim, cusp, chamfered_section(0.13f, 0.20f, 0.04f), {0, 0, 1});
         }
     }
-    sweep(m, Mat::Trim, std::array{vec3(-kBay / 2, 0.95f, 0.42f), vec3(kBay / 2, 0.95f, 0.42f)},
-          chamfered_section(0.22f, 0.22f, 0.07f), {0, 1, 0});
+    const auto string_course = [&](float from, float to) {
+        sweep(m, Mat::Trim, std::array{vec3(from, 0.95f, 0.42f), vec3(to, 0.95f, 0.42f)},
+              chamfered_section(0.22f, 0.22f, 0.07f), {0, 1, 0});
+    };
+    if (door) {  // it ends at the archivolt
+        constexpr float jamb = 0.75f + 0.24f;
+        string_course(-kBay / 2, -jamb);
+        string_course(jamb, kBay / 2);
+    } else {
+        string_course(-kBay / 2, kBay / 2);
+    }
     if (!ruined)
         sweep(m, Mat::Trim, std::array{vec3(-kBay / 2, 6.93f, 0.42f), vec3(kBay / 2, 6.93f, 0.42f)},
               chamfered_section(0.34f, 0.28f, 0.09f), {0, 1, 0});
