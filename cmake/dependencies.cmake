@@ -10,6 +10,8 @@ find_package(nlohmann_json REQUIRED)
 find_package(TinyGLTF REQUIRED)
 find_package(OpenImageIO REQUIRED)
 find_package(Bullet REQUIRED)
+find_package(embree 3 REQUIRED)
+find_package(Threads REQUIRED)
 find_package(GTest REQUIRED)
 pkg_check_modules(IMGUI REQUIRED IMPORTED_TARGET imgui)
 

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "engine/scene/scene.h"
+
+namespace tyndall::reference {
+
+using glm::dvec2;
+using glm::dvec3;
+
+/// A stretch [begin, end] of a ray, distances in metres.
+struct Interval {
+    double begin, end;
+};
+
+/// All triangles of a scene as posed now, in world space: what blocks the eye and what blocks light. Alpha-blended
+/// materials block neither, as in the engine; alpha-masked ones are cut out at their cutoff by bilinear look-up in
+/// the full-resolution texture. Rays are Embree's; lit intervals are exact, see below. Safe to use from many threads.
+class Geometry {
+  public:
+    /// The scene must outlive this. `shadows` false: nothing blocks light.
+    Geometry(const Scene& scene, bool shadows);
+    ~Geometry();
+    Geometry(const Geometry&) = delete;
+    Geometry& operator=(const Geometry&) = delete;
+
+    struct Hit {
+        double distance;         ///< m along the ray
+        std::uint32_t triangle;  ///< index for Surface
+        dvec2 barycentric;       ///< weights of the second and third corner
+        bool front;              ///< the side from which the corners run counter-clockwise
+    };
+    /// What the eye sees first beyond `begin` metres: back faces of one-sided materials are invisible.
+    [[nodiscard]] std::optional<Hit> closest_hit(dvec3 origin, dvec3 unit_direction, double begin) const;
+
+    /// Something that casts shadows lies between `from` and `from + distance * unit_direction` (distance may be
+    /// infinite). Both sides block. Surfaces within `skip` metres of either end do not.
+    [[nodiscard]] bool occluded(dvec3 from, dvec3 unit_direction, double distance, double skip) const;
+
+    /// The parts of origin + t * unit_direction, t in [begin, end], from which a light is visible, in order and
+    /// disjoint: by slicing every triangle with the plane through ray and light and projecting the cut onto the ray, so
+    /// that no occluder is too thin to count and edges are exact to rounding. A ray that runs along the light's
+    /// direction (or through the lamp) is a half-plane no longer and is asked at its middle with one shadow ray a piece.
+    [[nodiscard]] std::vector<Interval> lit_by_sun(dvec3 origin, dvec3 unit_direction, double begin, double end,
+                                                   dvec3 to_sun) const;
+    [[nodiscard]] std::vector<Interval> lit_by_lamp(dvec3 origin, dvec3 unit_direction, double begin, double end,
+                                                    dvec3 lamp) const;
+
+    struct Impl;
+    [[nodiscard]] const Impl& impl() const { return *impl_; }
+
+  private:
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace tyndall::reference
