@@ -77,10 +77,11 @@ Session::Session(const DrawOptions& o, bool window) : size(o.pixels()) {
     renderer = std::make_unique<Renderer>(*shaders);
     renderer->prepare(scene, context->capabilities().software ? 1.0f : 4.0f);
     options.timer = timer.get();
-    if (context->capabilities().software && options.volumetrics.steps > 256)
+    const volumetrics::Settings& v = options.volumetrics;
+    if (context->capabilities().software && v.technique == volumetrics::Technique::ray_march && v.steps > 256)
         spdlog::warn(
-            "llvmpipe ends the loops of a shader after 65,535 iterations: {} steps among many lamps lose light",
-            options.volumetrics.steps);
+            "on this driver shaders lose light where loops are long: {} steps among many lamps are too many",
+            v.steps);
 }
 
 void Session::draw(const View& view, double time) {

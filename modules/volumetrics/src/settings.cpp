@@ -88,12 +88,28 @@ const SettingsTable& settings_table() {
                     {"froxel_distribution", "Froxel distribution",
                      "Slices of equal thickness from the near plane, or in proportion to their depth from 1/256 of "
                      "the far distance on."},
-                    {"linear", "exponential"}, Effect::uniform);
+                    {"linear", "exponential"}, Effect::uniform)
+            .integer(&S::reference_steps,
+                     {"reference_steps", "Reference steps",
+                      "Samples per ray of the technique reference, where its error falls in proportion; taken as a "
+                      "multiple of 16."},
+                     16, 16384, Effect::uniform, Scale::logarithmic)
+            .integer(&S::reference_lamp_samples,
+                     {"reference_lamp_samples", "Reference lamp samples",
+                      "Samples per lamp and 16 steps of the technique reference, at equal angles as seen from the "
+                      "lamp."},
+                     1, 64, Effect::uniform, Scale::logarithmic)
+            .integer(
+                &S::reference_light_steps,
+                {"reference_light_steps", "Reference light steps",
+                 "Samples of the technique reference between a light and a point, in each local medium that is "
+                 "soft, noisy or has a height profile."},
+                1, 256, Effect::uniform, Scale::logarithmic);
     return table;
 }
 
 const std::vector<std::string>& technique_names() {
-    static const std::vector<std::string> names{"off", "ray_march"};
+    static const std::vector<std::string> names{"off", "ray_march", "reference"};
     return names;
 }
 

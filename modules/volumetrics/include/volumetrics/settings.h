@@ -4,7 +4,7 @@
 
 namespace tyndall::volumetrics {
 
-enum class Technique { off, ray_march };
+enum class Technique { off, ray_march, reference };
 enum class LampIntegration { center, segment };
 enum class Stepping { uniform, exponential };
 enum class Dither { none, white, bayer };
@@ -30,6 +30,9 @@ struct Settings {
     int froxels_x = 160, froxels_y = 90, froxels_z = 64;
     float froxel_far = 128;
     DepthDistribution froxel_distribution = DepthDistribution::exponential;
+    int reference_steps = 1024;
+    int reference_lamp_samples = 16;
+    int reference_light_steps = 16;
 };
 
 [[nodiscard]] const SettingsTable& settings_table();
