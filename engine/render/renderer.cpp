@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 
 #include "engine/core/check.h"
 #include "engine/core/error.h"
@@ -52,15 +53,18 @@ struct Renderer::Impl {
     gl::Texture color, display;
     gl::Framebuffer display_framebuffer;
     float znear = 0.1f;
+    struct Layer {
+        gl::TextureView texture;
+        bool in_alpha = false;
+    };
+    std::map<std::string, Layer> layers;  ///< those that were asked for
     std::string layer;
-    bool layer_in_alpha = false;
-    gl::TextureView layer_texture;
 
     void resize(glm::ivec2 size);
     [[nodiscard]] shared::FrameData frame_data(const FrameContext& frame) const;
     LightSources add_lights(FrameContext& frame, const GBuffer& g, const ShadowSunPass::Output& sun);
     void add_passes(FrameContext& frame, LightSources& sources, const FrameOptions& options);
-    void export_layer(TextureRef ref);
+    void export_layer(const std::string& name, TextureRef ref);
     void execute(const shared::FrameData& frame, const FrameOptions& options);
 };
 
@@ -173,23 +177,22 @@ void Renderer::Impl::add_passes(FrameContext& frame, LightSources& sources, cons
                                                        {"albedo", g.albedo},
                                                        {"normal", g.normal},
                                                        {"emissive", g.emissive}};
-    layer_in_alpha = layer == "transmittance" && !media_light.transmittance;
     for (const auto& [name, ref] : refs)
-        if (layer == name) export_layer(ref);
+        if (layers.contains(name)) export_layer(name, ref);
+    if (layers.contains("transmittance")) layers["transmittance"].in_alpha = !media_light.transmittance;
 }
 
 /// A pass that runs last and remembers the texture: nothing later takes its memory.
-void Renderer::Impl::export_layer(TextureRef ref) {
-    layer_texture = {};
-    if (layer == "color") layer_texture = color;
-    if (!ref || layer_texture) return;
+void Renderer::Impl::export_layer(const std::string& name, TextureRef ref) {
+    if (name == "color") layers[name].texture = color;
+    if (!ref || name == "color") return;
     passes.add(
-        "export/" + layer,
+        "export/" + name,
         [&](PassBuilder& pass) {
             pass.sample(ref);
             pass.keep();
         },
-        [this, ref](const PassContext& pass) { layer_texture = pass.texture(ref); });
+        [this, name, ref](const PassContext& pass) { layers[name].texture = pass.texture(ref); });
 }
 
 void Renderer::Impl::execute(const shared::FrameData& frame, const FrameOptions& options) {
@@ -214,9 +217,14 @@ void Renderer::prepare(const Scene& scene, float anisotropy) {
 void Renderer::render(const Scene& scene, const View& view, glm::ivec2 size, const FrameOptions& options) {
     Impl& r = *impl_;
     TYNDALL_CHECK(r.scene);
-    if (std::ranges::count(layer_names(), options.layer) == 0)
-        throw UsageError(
-            fmt::format("layer '{}': expected one of {}", options.layer, fmt::join(layer_names(), ", ")));
+    r.layers.clear();
+    std::vector<std::string> wanted = options.more_layers;
+    wanted.push_back(options.layer);
+    for (const std::string& name : wanted) {
+        if (std::ranges::count(layer_names(), name) == 0)
+            throw UsageError(fmt::format("layer '{}': expected one of {}", name, fmt::join(layer_names(), ", ")));
+        r.layers[name] = {};
+    }
     r.resize(size);
     r.scene->update(scene);
     r.layer = options.layer;
@@ -265,8 +273,12 @@ Image Renderer::read_display() const {
     return gl::read_texture(impl_->display);
 }
 Image Renderer::read_layer() const {
-    return decode_layer(impl_->layer, impl_->layer_texture,
-                        {impl_->color.size(), impl_->znear, impl_->layer_in_alpha});
+    return read_layer(impl_->layer);
+}
+Image Renderer::read_layer(const std::string& name) const {
+    TYNDALL_CHECK(impl_->layers.contains(name));
+    const Impl::Layer& layer = impl_->layers.at(name);
+    return decode_layer(name, layer.texture, {impl_->color.size(), impl_->znear, layer.in_alpha});
 }
 const std::vector<std::string>& Renderer::layer_names() {
     static const std::vector<std::string> names{"color",  "scattering", "transmittance", "depth",

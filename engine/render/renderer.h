@@ -27,6 +27,7 @@ struct FrameOptions {
     bool count_work = false;        ///< instrumented shaders; see Renderer::work
     gl::GpuTimer* timer = nullptr;  ///< per-pass times; render() begins its frame and copies its results
     std::string layer = "color";    ///< the layer that read_layer may be asked for (layer_names)
+    std::vector<std::string> more_layers = {};  ///< others that it may be asked for by name
     volumetrics::Settings volumetrics;
     RenderSettings render;
 };
@@ -69,6 +70,8 @@ class Renderer {
     /// and emissive in cd/m²; transmittance 0..1 (scattering 0 and transmittance 1 without a medium); depth as view
     /// depth in metres, 0 where there is only sky; albedo; normal in world space, 0 on the sky.
     [[nodiscard]] Image read_layer() const;
+    /// The same for one of FrameOptions::more_layers.
+    [[nodiscard]] Image read_layer(const std::string& name) const;
     [[nodiscard]] static const std::vector<std::string>& layer_names();
 
     [[nodiscard]] const FrameFacts& facts() const;
