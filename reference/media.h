@@ -5,6 +5,7 @@
 
 #include "engine/scene/medium.h"
 #include "reference/geometry.h"
+#include "reference/media_shape.h"
 
 namespace tyndall::reference {
 
@@ -15,7 +16,7 @@ struct MediumPoint {
     double anisotropy = 0;         ///< averaged by scattering (mean of the channels)
 };
 
-/// The media of a scene: overlapping ones add.
+/// The media of a scene: overlapping ones add. Those that do nothing, or whose size is not positive, are left out.
 class Media {
   public:
     explicit Media(const std::vector<Medium>& media);
@@ -24,16 +25,46 @@ class Media {
 
     /// Distances in (begin, end) along a ray where the media have an edge or a kink: rims, the inner end of soft
     /// rims, edges of a box's ramps. Sorted. Between two of them densities are smooth (noise apart).
-    [[nodiscard]] std::vector<double> breakpoints(dvec3 origin, dvec3 unit_direction, double begin, double end) const;
+    [[nodiscard]] std::vector<double> breakpoints(dvec3 origin, dvec3 unit_direction, double begin,
+                                                  double end) const;
 
     /// Optical depth of [begin, end] of a ray; end may be infinite. Unbounded homogeneous media count when `global`
-    /// is set: towards the sun they do not, as nothing says where sunlight would enter them. Closed where the density
-    /// is constant or exponential, adaptive quadrature elsewhere, to `tolerance` absolute.
+    /// is set: towards the sun they do not, as nothing says where sunlight would enter them. Closed where the
+    /// density is constant or exponential, adaptive quadrature elsewhere, to `tolerance` absolute.
     [[nodiscard]] dvec3 optical_depth(dvec3 origin, dvec3 unit_direction, double begin, double end, bool global,
                                       double tolerance) const;
 
+    /// An unbounded medium: homogeneous, or with a density of exp(-(y - base) / falloff).
+    struct Unbounded {
+        MediumPoint at_density_1;
+        bool height;
+        double base, falloff;
+        [[nodiscard]] double density(double y) const { return height ? height_density(y, base, falloff) : 1; }
+        [[nodiscard]] double density_length(double y, double rise, double length) const {
+            return height ? height_length(y, rise, length, base, falloff) : length;
+        }
+    };
+    [[nodiscard]] const std::vector<Unbounded>& unbounded() const { return unbounded_; }
+    [[nodiscard]] const std::vector<MediumShape>& shapes() const { return shapes_; }
+    /// Of the unbounded media alone.
+    [[nodiscard]] dvec3 unbounded_depth(double y, double rise, double length, bool global) const;
+    /// Channels in which some medium scatters or emits.
+    [[nodiscard]] glm::bvec3 channels() const;
+
   private:
-    std::vector<Medium> media_;
+    std::vector<Unbounded> unbounded_;
+    std::vector<MediumShape> shapes_;
+};
+
+/// Adds up media at a point.
+class MediumSum {
+  public:
+    void add(const dvec3& sigma_s, const dvec3& sigma_t, const dvec3& emission, double anisotropy, double density);
+    [[nodiscard]] MediumPoint result() const;
+
+  private:
+    MediumPoint sum_;
+    double weight_ = 0;
 };
 
 }  // namespace tyndall::reference

@@ -16,10 +16,10 @@ struct Settings {
     bool light_transmittance = true;  ///< media attenuate light on its way to the point (and to surfaces)
     bool schlick = false;             ///< Schlick's phase function instead of Henyey-Greenstein's
     bool shadows = true;
-    double ambient = 0.4;      ///< factor on the sky's light
+    double ambient = 0.4;         ///< factor on the sky's light
     bool black_surfaces = false;  ///< surfaces block and hide, and send no light
-    double tolerance = 1e-4;   ///< of the radiance of a ray, relative; absolute below `floor`
-    double floor = 1e-6;       ///< cd/m²
+    double tolerance = 1e-4;      ///< of the radiance of a ray, relative; absolute below `floor`
+    double floor = 1e-6;          ///< cd/m²
 };
 
 /// Ground truth of one scene: single scattering and direct light in double precision, exact visibility. Shares with
@@ -45,6 +45,8 @@ class Reference {
     };
     /// `begin`: surfaces nearer than this are not seen (the near plane, along the ray); media are.
     [[nodiscard]] Ray trace(dvec3 origin, dvec3 unit_direction, double begin) const;
+    /// Its distance alone.
+    [[nodiscard]] double visible_distance(dvec3 origin, dvec3 unit_direction, double begin) const;
 
   private:
     struct Impl;
@@ -61,7 +63,7 @@ struct Picture {
 /// `samples` × `samples` rays a pixel at the centres of its equal parts (1: the engine's own sample), averaged.
 /// `threads` 0: all. `progress(rows done, rows)` is called from one thread at a time. The result does not depend on
 /// the number of threads.
-[[nodiscard]] Picture render(const Reference& reference, const View& view, glm::ivec2 size, int samples, int threads,
-                             const std::function<void(int, int)>& progress = {});
+[[nodiscard]] Picture render(const Reference& reference, const View& view, glm::ivec2 size, int samples,
+                             int threads, const std::function<void(int, int)>& progress = {});
 
 }  // namespace tyndall::reference

@@ -1,0 +1,207 @@
+#include "reference/inscatter.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "reference/phase.h"
+#include "reference/quadrature.h"
+
+namespace tyndall::reference {
+namespace {
+
+double largest(const dvec3& v) {
+    return std::max({v.x, v.y, v.z});
+}
+
+/// One integrand of a ray. Lamps are integrated in distance within the sphere of their radius, and in the angle
+/// under which the lamp sees the ray before and behind their nearest point.
+struct Source {
+    enum class Kind { glow, sun, lamp_inside, lamp_before, lamp_behind };
+    Kind kind;
+    int lamp = -1;  ///< index of a LampPath
+};
+
+}  // namespace
+
+/// The sum over all sources of one ray.
+struct InScattering::RaySum {
+    const InScattering& in;
+    const MediaRay& ray;
+    dvec3 origin, direction;
+    std::vector<LampPath> lamps{};
+    std::vector<Source> sources{};
+    std::vector<Panel<dvec3>> panels{};
+    dvec3 sum{0};  ///< of the panels as first integrated
+
+    [[nodiscard]] double phase(double g, double cos_theta) const {
+        return in.settings_.schlick ? schlick(g, cos_theta) : henyey_greenstein(g, cos_theta);
+    }
+    [[nodiscard]] double phase_peak() const {
+        const double g = ray.greatest_anisotropy();
+        return in.settings_.schlick ? schlick_peak(g) : henyey_greenstein_peak(g);
+    }
+    [[nodiscard]] dvec3 glow(double t) const {
+        const MediumPoint m = ray.at(t);
+        return glm::exp(-ray.depth(t)) * (m.emission + m.sigma_s * in.lighting_.ambient);
+    }
+    [[nodiscard]] dvec3 sunlight(double t) const {
+        const MediumPoint m = ray.at(t);
+        if (m.sigma_s == dvec3(0)) return dvec3(0);
+        const Sun& sun = *in.lighting_.sun;
+        return glm::exp(-ray.depth(t)) * m.sigma_s * sun.illuminance *
+               in.towards_sun(origin + t * direction, sun.to_sun) *
+               phase(m.anisotropy, glm::dot(sun.to_sun, direction));
+    }
+    /// At u metres behind the point nearest to the lamp, times `weight`, m².
+    [[nodiscard]] dvec3 lamplight(const LampPath& path, double u, double weight) const {
+        const double t = path.nearest + u;
+        const MediumPoint m = ray.at(t);
+        const dvec3 offset = path.passing + u * direction;
+        const double distance = std::sqrt(path.h * path.h + u * u);
+        if (m.sigma_s == dvec3(0)) return dvec3(0);
+        const Lamp& lamp = *path.lamp;
+        const double cos_axis = distance > 0 ? glm::dot(offset, lamp.axis) / distance : 1;
+        const double strength = lamp.attenuation(distance * distance) * lamp.cone(cos_axis) * weight;
+        if (strength <= 0) return dvec3(0);
+        const dvec3 to_lamp = distance > 0 ? -offset / distance : -direction;
+        return glm::exp(-ray.depth(t)) * m.sigma_s * lamp.intensity *
+               in.towards_lamp(origin + t * direction, to_lamp, distance) *
+               (strength * phase(m.anisotropy, distance > 0 ? -u / distance : 0.0));
+    }
+    [[nodiscard]] dvec3 evaluate(int source, double x) const {
+        const Source& s = sources[static_cast<std::size_t>(source)];
+        if (s.kind == Source::Kind::glow) return glow(x);
+        if (s.kind == Source::Kind::sun) return sunlight(x);
+        const LampPath& path = lamps[static_cast<std::size_t>(s.lamp)];
+        if (s.kind == Source::Kind::lamp_inside) return lamplight(path, x - path.nearest, 1);
+        const double u = path.from_angle(x);
+        return lamplight(path, s.kind == Source::Kind::lamp_before ? -u : u, path.h * path.h + u * u);
+    }
+
+    int add_source(Source source) {
+        sources.push_back(source);
+        return static_cast<int>(sources.size()) - 1;
+    }
+    void add_panel(int source, double a, double b) {
+        if (!(a < b)) return;
+        panels.push_back({a, b, source, gauss_kronrod<dvec3>([&](double x) { return evaluate(source, x); }, a, b)});
+        sum += panels.back().integral.value;
+    }
+    /// The interval's ends and what of the media's knots and of `more` lies between.
+    [[nodiscard]] std::vector<double> split(const Interval& part, const std::vector<double>& more = {}) const {
+        std::vector<double> points{part.begin, part.end};
+        for (const std::vector<double>* list : {&ray.knots(), &more})
+            for (const double t : *list)
+                if (t > part.begin && t < part.end) points.push_back(t);
+        std::sort(points.begin(), points.end());
+        return points;
+    }
+
+    void add_glow() {
+        const int source = add_source({Source::Kind::glow});
+        const std::vector<double> points = split({0, ray.end()});
+        for (std::size_t i = 0; i + 1 < points.size(); ++i) add_panel(source, points[i], points[i + 1]);
+    }
+    void add_sun() {
+        const Sun& sun = *in.lighting_.sun;
+        std::vector<Interval> lit{{0, ray.end()}};
+        if (in.settings_.shadows && sun.shadow)
+            lit = in.geometry_.lit_by_sun(origin, direction, 0, ray.end(), sun.to_sun);
+        const int source = add_source({Source::Kind::sun});
+        for (const Interval& part : lit) {
+            const std::vector<double> points = split(part);
+            for (std::size_t i = 0; i + 1 < points.size(); ++i) add_panel(source, points[i], points[i + 1]);
+        }
+    }
+    void add_lamp(const LampPath& path, const Interval& reach) {
+        std::vector<Interval> lit{reach};
+        if (in.settings_.shadows && path.lamp->shadow)
+            lit = in.geometry_.lit_by_lamp(origin, direction, reach.begin, reach.end, path.lamp->position);
+        const int index = static_cast<int>(lamps.size());
+        lamps.push_back(path);
+        const int inside = add_source({Source::Kind::lamp_inside, index});
+        const int before = add_source({Source::Kind::lamp_before, index});
+        const int behind = add_source({Source::Kind::lamp_behind, index});
+        const std::vector<double> kinks = path.kinks();
+        for (const Interval& part : lit) {
+            const std::vector<double> points = split(part, kinks);
+            for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+                const double a = points[i] - path.nearest, b = points[i + 1] - path.nearest;
+                const double u = 0.5 * (a + b);
+                if (path.h * path.h + u * u < path.lamp->radius * path.lamp->radius)
+                    add_panel(inside, points[i], points[i + 1]);
+                else if (u > 0)
+                    add_panel(behind, path.to_angle(b), path.to_angle(a));
+                else
+                    add_panel(before, path.to_angle(a), path.to_angle(b));
+            }
+        }
+    }
+    /// Lamps by what they can give at most, greatest first; the last ones are left out as long as all of them
+    /// together stay below a quarter of the tolerance. Returns their bound.
+    double add_lamps() {
+        struct Candidate {
+            LampPath path;
+            Interval reach;
+            double bound;
+        };
+        std::vector<Candidate> candidates;
+        const double scatter = largest(ray.greatest_sigma_s()) * phase_peak();
+        for (const Lamp& lamp : in.lighting_.lamps) {
+            const LampPath path(lamp, origin, direction);
+            const Interval reach = path.within_range(0, ray.end());
+            if (!(reach.begin < reach.end)) continue;
+            const double bound = scatter * largest(lamp.intensity) * path.inverse_square(reach);
+            if (bound > 0) candidates.push_back({path, reach, bound});
+        }
+        std::stable_sort(candidates.begin(), candidates.end(),
+                         [](const Candidate& l, const Candidate& r) { return l.bound > r.bound; });
+        double left = std::accumulate(candidates.begin(), candidates.end(), 0.0,
+                                      [](double s, const Candidate& c) { return s + c.bound; });
+        for (const Candidate& c : candidates) {
+            if (left <= 0.25 * in.settings_.tolerance * std::max(largest(sum), in.settings_.floor)) return left;
+            add_lamp(c.path, c.reach);
+            left = std::max(left - c.bound, 0.0);
+        }
+        return 0;
+    }
+};
+
+InScattering::InScattering(const Geometry& geometry, const Media& media, const Lighting& lighting,
+                           const Settings& settings)
+    : geometry_(geometry), media_(media), lighting_(lighting), settings_(settings) {}
+
+double InScattering::depth_tolerance() const {
+    return 0.1 * settings_.tolerance;
+}
+
+dvec3 InScattering::towards_sun(dvec3 point, dvec3 to_sun) const {
+    if (!settings_.light_transmittance) return dvec3(1);
+    return glm::exp(
+        -media_.optical_depth(point, to_sun, 0, std::numeric_limits<double>::infinity(), false, depth_tolerance()));
+}
+
+dvec3 InScattering::towards_lamp(dvec3 point, dvec3 to_lamp, double distance) const {
+    if (!settings_.light_transmittance) return dvec3(1);
+    return glm::exp(-media_.optical_depth(point, to_lamp, 0, distance, true, depth_tolerance()));
+}
+
+InScattering::Result InScattering::along(const MediaRay& ray, dvec3 origin, dvec3 unit_direction) const {
+    if (media_.empty() || !(ray.end() > 0)) return {};
+    RaySum sum{*this, ray, origin, unit_direction};
+    sum.add_glow();
+    double left_out = 0;
+    if (ray.greatest_sigma_s() != dvec3(0)) {
+        if (lighting_.sun) sum.add_sun();
+        left_out = sum.add_lamps();
+    }
+    const double tolerance = 0.5 * settings_.tolerance;
+    const Integral<dvec3> all = refine<dvec3>([&](int source, double x) { return sum.evaluate(source, x); },
+                                              sum.panels, {tolerance * settings_.floor, tolerance});
+    const double radiance = largest(all.value);
+    return {all.value, largest(all.error) + left_out + 2 * depth_tolerance() * radiance};
+}
+
+}  // namespace tyndall::reference

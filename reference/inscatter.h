@@ -1,0 +1,43 @@
+#pragma once
+
+#include "reference/lights.h"
+#include "reference/media_ray.h"
+#include "reference/reference.h"
+
+namespace tyndall::reference {
+
+/// What shines into the media and onto the surfaces.
+struct Lighting {
+    std::optional<Sun> sun;
+    std::vector<Lamp> lamps;
+    dvec3 ambient{0};  ///< mean radiance of the sky over the sphere, cd/m²
+};
+
+/// In-scattered and emitted radiance along rays, by adaptive quadrature with one error budget for all lights of a
+/// ray.
+class InScattering {
+  public:
+    /// All must outlive this.
+    InScattering(const Geometry& geometry, const Media& media, const Lighting& lighting, const Settings& settings);
+
+    struct Result {
+        dvec3 radiance{0};
+        double error = 0;  ///< estimated, absolute, largest channel
+    };
+    [[nodiscard]] Result along(const MediaRay& ray, dvec3 origin, dvec3 unit_direction) const;
+
+    /// Transmittance from a point towards the sun, and over `distance` metres towards a lamp.
+    [[nodiscard]] dvec3 towards_sun(dvec3 point, dvec3 to_sun) const;
+    [[nodiscard]] dvec3 towards_lamp(dvec3 point, dvec3 to_lamp, double distance) const;
+    /// What a MediaRay's optical depths must be accurate to.
+    [[nodiscard]] double depth_tolerance() const;
+
+  private:
+    struct RaySum;
+    const Geometry& geometry_;
+    const Media& media_;
+    const Lighting& lighting_;
+    const Settings& settings_;
+};
+
+}  // namespace tyndall::reference

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "engine/scene/medium.h"
+#include "reference/geometry.h"
+
+namespace tyndall::reference {
+
+/// Integral of exp(min((base - y) / falloff, 60)) over `length` metres (may be infinite) of a line that starts at
+/// height y and rises by `rise` per metre.
+[[nodiscard]] double height_length(double y, double rise, double length, double base, double falloff);
+[[nodiscard]] double height_density(double y, double base, double falloff);
+
+/// A bounded medium: its density is rim * noise * height profile.
+class MediumShape {
+  public:
+    explicit MediumShape(const Medium& medium);
+
+    dvec3 sigma_s, sigma_t, emission;
+    double anisotropy;
+
+    /// A ray in the shape's frame, and the part of it that lies inside.
+    struct Path {
+        const MediumShape* shape;
+        dvec3 origin, direction;
+        double height, rise;  ///< in the world
+        Interval inside;      ///< distances, may be negative
+        [[nodiscard]] double density(double t) const {
+            return shape->density(origin + t * direction, height + t * rise);
+        }
+    };
+    /// Nothing where the ray misses the shape.
+    [[nodiscard]] std::optional<Path> path(dvec3 origin, dvec3 unit_direction) const;
+
+    [[nodiscard]] double density(dvec3 world) const;
+    [[nodiscard]] double greatest_density() const;  ///< an upper bound
+
+    /// Kinks of the density along a path within [begin, end], its ends among them; rising. Where there is noise,
+    /// also points as far apart as its largest features, so that a quadrature rule between them cannot miss those.
+    [[nodiscard]] std::vector<double> knots(const Path& path, double begin, double end) const;
+    /// The integral of the density between two distances can be had in closed form.
+    [[nodiscard]] bool closed() const { return !noisy_ && (softness_ == 0 || (box_ && !profile_)); }
+    /// That integral, m: in closed form or by adaptive quadrature to `tolerance`, m.
+    [[nodiscard]] double density_length(const Path& path, double begin, double end, double tolerance) const;
+
+  private:
+    [[nodiscard]] double density(dvec3 local, double y) const;
+    [[nodiscard]] double depth(dvec3 local) const;
+    [[nodiscard]] dvec3 to_local(dvec3 world) const { return world_to_shape_ * (world - center_); }
+    [[nodiscard]] std::optional<Interval> slab_chord(dvec3 o, dvec3 d) const;
+    [[nodiscard]] std::optional<Interval> ellipsoid_chord(dvec3 o, dvec3 d) const;
+    void add_box_knots(const Path& path, std::vector<double>& knots) const;
+    void add_ellipsoid_knots(const Path& path, std::vector<double>& knots) const;
+
+    bool box_;
+    dvec3 center_, extent_;  ///< half size of a box, radii
+    double bounding_radius_;
+    glm::dmat3 world_to_shape_;
+    double softness_;  ///< 0: the rim is a step
+    bool noisy_, profile_;
+    float noise_scale_, noise_amount_;
+    unsigned noise_seed_;
+    double base_, falloff_;
+};
+
+}  // namespace tyndall::reference
