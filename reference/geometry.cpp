@@ -1,13 +1,69 @@
 #include "reference/geometry.h"
 
-#include "engine/core/error.h"
+#include <algorithm>
+
+#include "reference/geometry_impl.h"
 
 namespace tyndall::reference {
-struct Geometry::Impl {};
-Geometry::Geometry(const Scene&, bool) { throw Error("reference: not there yet"); }
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+/// Stands for infinity where numbers must be finite; m.
+constexpr double very_far = 1e9;
+
+/// What of [begin, end] lies in [from, to].
+std::vector<Interval> clipped(double begin, double end, double from, double to) {
+    const Interval lit{std::max(begin, from), std::min(end, to)};
+    if (lit.begin >= lit.end) return {};
+    return {lit};
+}
+
+std::vector<Interval> lit_of_slice(const SliceTree& casters, const Slice& slice, double end) {
+    std::vector<Interval> lit = lit_between(casters.dark(slice), slice.begin, slice.end);
+    if (!lit.empty() && lit.back().end == slice.end) lit.back().end = end;
+    return lit;
+}
+
+}  // namespace
+
+Geometry::Geometry(const Scene& scene, bool shadows) : impl_(std::make_unique<Impl>(scene, shadows)) {}
 Geometry::~Geometry() = default;
-std::optional<Geometry::Hit> Geometry::closest_hit(dvec3, dvec3, double) const { return {}; }
-bool Geometry::occluded(dvec3, dvec3, double, double) const { return false; }
-std::vector<Interval> Geometry::lit_by_sun(dvec3, dvec3, double, double, dvec3) const { return {}; }
-std::vector<Interval> Geometry::lit_by_lamp(dvec3, dvec3, double, double, dvec3) const { return {}; }
+
+std::optional<Geometry::Hit> Geometry::closest_hit(dvec3 origin, dvec3 unit_direction, double begin) const {
+    return impl_->first_hit(origin, unit_direction, begin, infinity, Impl::Sees::eye);
+}
+
+bool Geometry::occluded(dvec3 from, dvec3 unit_direction, double distance, double skip) const {
+    return impl_->shadows && impl_->any_hit(from, unit_direction, skip, distance - skip);
+}
+
+std::vector<Interval> Geometry::lit_by_sun(dvec3 origin, dvec3 unit_direction, double begin, double end,
+                                           dvec3 to_sun) const {
+    if (begin >= end) return {};
+    if (!impl_->shadows) return {{begin, end}};
+    if (const auto slice = sun_slice(origin, unit_direction, begin, std::min(end, begin + very_far), to_sun))
+        return lit_of_slice(*impl_->casters, *slice, end);
+    // Along the light: the first surface that it meets ends it. The start lies before everything.
+    const double start = glm::length(impl_->center - origin) + impl_->radius + 1;
+    const auto hit = impl_->first_hit(origin + start * to_sun, -to_sun, 0, infinity, Impl::Sees::light);
+    if (!hit) return {{begin, end}};
+    const double height = start - hit->distance;  // along to_sun, from the ray's origin
+    return glm::dot(unit_direction, to_sun) > 0 ? clipped(begin, end, height, infinity)
+                                                : clipped(begin, end, -infinity, -height);
+}
+
+std::vector<Interval> Geometry::lit_by_lamp(dvec3 origin, dvec3 unit_direction, double begin, double end,
+                                            dvec3 lamp) const {
+    if (begin >= end) return {};
+    if (!impl_->shadows) return {{begin, end}};
+    if (const auto slice = lamp_slice(origin, unit_direction, begin, std::min(end, begin + very_far), lamp))
+        return lit_of_slice(*impl_->casters, *slice, end);
+    // Through the lamp: lit from it to the first surface either way.
+    constexpr double at_lamp = 1e-6;
+    const double t = glm::dot(lamp - origin, unit_direction);
+    const auto ahead = impl_->first_hit(lamp, unit_direction, at_lamp, infinity, Impl::Sees::light);
+    const auto back = impl_->first_hit(lamp, -unit_direction, at_lamp, infinity, Impl::Sees::light);
+    return clipped(begin, end, back ? t - back->distance : -infinity, ahead ? t + ahead->distance : infinity);
+}
+
 }  // namespace tyndall::reference

@@ -20,7 +20,8 @@ struct Interval {
 
 /// All triangles of a scene as posed now, in world space: what blocks the eye and what blocks light. Alpha-blended
 /// materials block neither, as in the engine; alpha-masked ones are cut out at their cutoff by bilinear look-up in
-/// the full-resolution texture. Rays are Embree's; lit intervals are exact, see below. Safe to use from many threads.
+/// the full-resolution texture. Rays are Embree's; lit intervals are exact, see below. Safe to use from many
+/// threads.
 class Geometry {
   public:
     /// The scene must outlive this. `shadows` false: nothing blocks light.
@@ -33,19 +34,23 @@ class Geometry {
         double distance;         ///< m along the ray
         std::uint32_t triangle;  ///< index for Surface
         dvec2 barycentric;       ///< weights of the second and third corner
-        bool front;              ///< the side from which the corners run counter-clockwise
+        bool front;              ///< glTF's: corners run counter-clockwise, or clockwise where the node mirrors
     };
     /// What the eye sees first beyond `begin` metres: back faces of one-sided materials are invisible.
     [[nodiscard]] std::optional<Hit> closest_hit(dvec3 origin, dvec3 unit_direction, double begin) const;
 
     /// Something that casts shadows lies between `from` and `from + distance * unit_direction` (distance may be
-    /// infinite). Both sides block. Surfaces within `skip` metres of either end do not.
+    /// infinite). Both sides block. Surfaces within `skip` metres of either end (exactly, along the ray) do not.
     [[nodiscard]] bool occluded(dvec3 from, dvec3 unit_direction, double distance, double skip) const;
 
     /// The parts of origin + t * unit_direction, t in [begin, end], from which a light is visible, in order and
-    /// disjoint: by slicing every triangle with the plane through ray and light and projecting the cut onto the ray, so
-    /// that no occluder is too thin to count and edges are exact to rounding. A ray that runs along the light's
-    /// direction (or through the lamp) is a half-plane no longer and is asked at its middle with one shadow ray a piece.
+    /// disjoint: by slicing every triangle with the plane through ray and light and projecting the cut onto the
+    /// ray, so that no occluder is too thin to count and edges are exact to rounding; masks, too, as they are
+    /// quadratic along the cut. Both sides block. `end` may be infinite. A ray within 1e-9 rad of the light's
+    /// direction (or through the lamp) is lit up to the first surface from the light. Dark or lit stretches below
+    /// 1e-9 m, triangles within 1e-9 m of the ray's line, and those within 1e-6 m of the lamp's distance from it (a
+    /// lamp on a ceiling) do not count. There is no near plane: what stands around a lamp, if nearer than the
+    /// lamp's radius, darkens it here and not in the engine's maps.
     [[nodiscard]] std::vector<Interval> lit_by_sun(dvec3 origin, dvec3 unit_direction, double begin, double end,
                                                    dvec3 to_sun) const;
     [[nodiscard]] std::vector<Interval> lit_by_lamp(dvec3 origin, dvec3 unit_direction, double begin, double end,

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include "engine/scene/scene.h"
+
+namespace tyndall::reference {
+
+using glm::dvec2;
+using glm::dvec4;
+
+/// Bilinear look-up in the full-resolution picture, repeating, texel centres at (i + 0.5) / size. `srgb`: the
+/// colour is decoded before it is filtered; alpha never is. 0..1.
+[[nodiscard]] dvec4 sample(const Picture& picture, dvec2 uv, bool srgb);
+
+/// The alpha that a mask's cutoff is compared with: factor times the base colour texture's.
+[[nodiscard]] double mask_alpha(const Scene& scene, const Material& material, dvec2 uv);
+
+}  // namespace tyndall::reference
