@@ -51,9 +51,10 @@ void list_settings(bool markdown) {
 
 void list_scenes() {
     std::vector<std::string> names;
-    for (const auto& entry : std::filesystem::directory_iterator(data_root() / "assets/levels"))
-        if (entry.path().extension() == ".glb" || entry.path().extension() == ".gltf")
-            names.push_back(entry.path().string());
+    for (const char* folder : {"assets/levels", "assets/bench"})
+        for (const auto& entry : std::filesystem::directory_iterator(data_root() / folder))
+            if (entry.path().extension() == ".glb" || entry.path().extension() == ".gltf")
+                names.push_back(entry.path().string());
     std::sort(names.begin(), names.end());
     fmt::print("{}\n", fmt::join(names, "\n"));
 }

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "tools/level/parts.h"
-#include "tools/level/random.h"
 #include "tools/level/wall.h"
+#include "tools/modeling/random.h"
 
 namespace tyndall::level {
 

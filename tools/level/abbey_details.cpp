@@ -2,8 +2,8 @@
 #include <algorithm>
 
 #include "tools/level/parts.h"
-#include "tools/level/random.h"
 #include "tools/level/wall.h"
+#include "tools/modeling/random.h"
 
 namespace tyndall::level {
 
@@ -225,7 +225,7 @@ void passage(Mesh& m) {
             const vec3 n(0, -sine(a), -cosine(a));
             v.push_back({{p.x, p.y + 1.27f * sine(a), 11.15f + 1.27f * cosine(a)},
                          n,
-                         vec2(p.x, -1.27f * a) / tile_metres(Mat::Rubble)});
+                         vec2(p.x, -1.27f * a) / Mat::Rubble.tile_metres});
         }
     }
     m.grid(Mat::Rubble, segments + 1, 4, v);

@@ -1,6 +1,7 @@
 // The six places, the path through them, where the player starts, and the fog.
 #include "tools/level/parts.h"
 #include "tools/level/path.h"
+#include "tools/modeling/media.h"
 
 namespace tyndall::level {
 
@@ -63,51 +64,29 @@ std::vector<Waypoint> way() {
     return w;
 }
 
-json triple(float x) {
-    return {x, x, x};
-}
-json point(vec3 v) {
-    return {v.x, v.y, v.z};
-}
-
 // White fog: scattering with a trace of absorption.
-json fog(const std::string& shape, float scattering, float anisotropy) {
-    return {{"shape", shape},
-            {"scattering", triple(scattering)},
-            {"absorption", triple(scattering * 0.03f)},
-            {"anisotropy", anisotropy},
-            {"emission", triple(0.0f)}};
+Coefficients fog(float scattering, float anisotropy) {
+    return {scattering, scattering * 0.03f, anisotropy};
 }
 
 void cloud(Level& level, vec3 centre, vec3 radii, float scattering, float noise_scale, int seed) {
-    json m = fog("ellipsoid", scattering, 0.45f);
-    m["center"] = point(centre);
-    m["radii"] = point(radii);
-    m["softness"] = std::min({radii.x, radii.y, radii.z}) * 0.7f;
-    m["noise"] = {{"scale", noise_scale}, {"amount", 0.85f}, {"seed", seed}};
+    json m = ellipsoid_medium(fog(scattering, 0.45f), centre, radii, std::min({radii.x, radii.y, radii.z}) * 0.7f);
+    m["noise"] = medium_noise(noise_scale, 0.85f, seed);
     level.media.push_back(m);
 }
 
 json& box_fog(Level& level, vec3 centre, vec3 size, float scattering, float anisotropy, float softness) {
-    json m = fog("box", scattering, anisotropy);
-    m["center"] = point(centre);
-    m["size"] = point(size);
-    m["rotation"] = {0.0f, 0.0f, 0.0f, 1.0f};
-    m["softness"] = softness;
-    level.media.push_back(m);
+    level.media.push_back(box_medium(fog(scattering, anisotropy), centre, size, softness));
     return level.media.back();
 }
 
 }  // namespace
 
 void add_media(Level& level) {
-    json haze = fog("height", 0.0065f, 0.45f);
-    haze["base"] = 0.0f;
-    haze["falloff"] = 8.0f;
-    level.media.push_back(haze);
+    level.media.push_back(height_medium(fog(0.0065f, 0.45f), 0.0f, 8.0f));
     // LocalPM: mist on the nave's floor, incense over the braziers, the font and the altar.
     json& floor_mist = box_fog(level, {-23.0f, 1.4f, 0.0f}, {36.0f, 2.8f, 17.0f}, 0.15f, 0.4f, 0.8f);
-    floor_mist["noise"] = {{"scale", 2.2f}, {"amount", 0.9f}, {"seed", 11}};
+    floor_mist["noise"] = medium_noise(2.2f, 0.9f, 11);
     floor_mist["height"] = {{"base", 0.0f}, {"falloff", 0.7f}};
     box_fog(level, {-22.5f, 6.0f, 0.0f}, {44.0f, 16.0f, 19.0f}, 0.022f, 0.5f, 2.0f);
     cloud(level, {-22.75f, 2.9f, 0.0f}, {2.6f, 2.3f, 2.4f}, 0.35f, 1.1f, 1);

@@ -5,6 +5,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "tools/level/ray_scene.h"
+#include "tools/modeling/check.h"
 
 namespace tyndall::level {
 
@@ -48,15 +49,6 @@ struct Checker {
                "materials: " + std::to_string(materials.materials.size()) + ", allowed 24");
         const size_t lamps = level.lights.size() - 1;
         expect(lamps >= 250 && lamps <= 400, "lamps: " + std::to_string(lamps) + ", expected 250 to 400");
-        for (const Mesh& m : level.meshes) {
-            for (const auto& [mat, part] : m.parts) {
-                const bool finite = std::ranges::all_of(part.vertices, [](const Vertex& v) {
-                    return std::isfinite(glm::dot(v.position, vec3(1)) + v.uv.x + v.uv.y) &&
-                           std::abs(glm::length(v.normal) - 1.0f) < 1e-3f;
-                });
-                expect(finite, "mesh " + m.name + ": a vertex is not finite or its normal not of unit length");
-            }
-        }
     }
 
     void names() {
@@ -86,17 +78,9 @@ struct Checker {
         expect(suns == 1, "suns: " + std::to_string(suns) + ", expected 1");
     }
 
-    void rotations() {
-        auto unit = [](vec4 q) { return std::abs(glm::length(q) - 1.0f) < 1e-5f; };
-        for (const Node& n : level.nodes) {
-            expect(unit(vec4(n.rotation.x, n.rotation.y, n.rotation.z, n.rotation.w)),
-                   "node " + n.name + ": rotation is not of unit length");
-        }
+    void wind() {
         for (const Animation& a : level.animations) {
             for (const Channel& c : a.channels) {
-                if (c.rotation)
-                    expect(std::ranges::all_of(c.values, unit),
-                           "animation " + a.name + ": a rotation is not of unit length");
                 if (a.name == "wind")
                     expect(c.values.front() == c.values.back(), "animation wind: last key differs from the first");
             }
@@ -162,11 +146,12 @@ struct Checker {
 std::vector<std::string> check_level(const Level& level, const MaterialSet& materials, size_t file_bytes,
                                      std::string& report) {
     Checker c{level, materials};
+    c.failures = modeling::check_scene(level);
     c.budget(file_bytes);
     c.names();
     if (c.failures.empty()) {
         c.sun();
-        c.rotations();
+        c.wind();
         c.lamps(RayScene(level, materials, false));
         c.path(RayScene(level, materials, true));
     }

@@ -2,8 +2,8 @@
 #include <algorithm>
 
 #include "tools/level/parts.h"
-#include "tools/level/random.h"
 #include "tools/level/wall.h"
+#include "tools/modeling/random.h"
 
 namespace tyndall::level {
 
@@ -39,7 +39,7 @@ void ground(Level& level) {
             const float e = 0.5f, y = r == 0 || c == 0 || r == rows - 1 || c == columns - 1 ? kCourt : height(x, z);
             const vec3 n = glm::normalize(
                 vec3(height(x - e, z) - height(x + e, z), 2 * e, height(x, z - e) - height(x, z + e)));
-            v.push_back({{x, y, z}, n, vec2(x, z) / tile_metres(Mat::Grass)});
+            v.push_back({{x, y, z}, n, vec2(x, z) / Mat::Grass.tile_metres});
         }
     }
     m.grid(Mat::Grass, rows, columns, v);

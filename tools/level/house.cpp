@@ -1,6 +1,6 @@
 #include "tools/level/parts.h"
-#include "tools/level/random.h"
 #include "tools/level/wall.h"
+#include "tools/modeling/random.h"
 
 namespace tyndall::level {
 

@@ -1,8 +1,8 @@
 #include <algorithm>
 
 #include "tools/level/parts.h"
-#include "tools/level/random.h"
-#include "tools/level/shapes.h"
+#include "tools/modeling/random.h"
+#include "tools/modeling/shapes.h"
 
 namespace tyndall::level {
 
@@ -199,9 +199,7 @@ void add_sun(Level& level) {
     sun.type = Light::Type::Sun;
     sun.color = {1.0f, 0.75f, 0.5f};
     sun.intensity = 450.0f;
-    const vec3 d = to_sun();  // lights shine along -Z: +Z of the node points to the sun
-    const float yaw = arctangent(d.x, d.z) * 180.0f / kPi, pitch = -arcsine(d.y) * 180.0f / kPi;
-    level.add_light(sun, vec3(0), Pose{vec3(0), yaw, pitch}.rotation());
+    level.add_light(sun, vec3(0), looking_along(vec3(0), -to_sun()).rotation());
 }
 
 }  // namespace tyndall::level

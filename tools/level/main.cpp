@@ -1,51 +1,32 @@
 // Writes Tyndall's sample level, or checks that a file is that level and keeps its promises.
-#include <cstdio>
 #include <exception>
-#include <filesystem>
-#include <fstream>
 #include <iostream>
-#include <iterator>
 
 #include "tools/level/check.h"
-#include "tools/level/gltf_writer.h"
+#include "tools/modeling/files.h"
+#include "tools/modeling/gltf_writer.h"
 
 namespace {
 
 constexpr int kRunTimeFailure = 1, kUsageError = 2;
 
-// Through a temporary name, so that a failure leaves nothing partial behind.
-bool write_file(const std::string& path, const std::string& bytes) {
-    const std::string temporary = path + ".partial";
-    std::error_code error;
-    {
-        std::ofstream out(temporary, std::ios::binary);
-        out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-        out.close();
-        if (out) std::filesystem::rename(temporary, path, error);
-        if (out && !error) return true;
-    }
-    std::filesystem::remove(temporary, error);
-    return false;
-}
-
 int run(bool check, const std::string& path) {
     const auto materials = tyndall::level::make_materials();
     const auto level = tyndall::level::build_level();
-    const std::string bytes = tyndall::level::to_glb(level, materials);
+    const std::string bytes = tyndall::level::to_glb(level, materials, "tyndall_level");
     if (!check) {
-        if (write_file(path, bytes)) return 0;
+        if (tyndall::modeling::write_file(path, bytes)) return 0;
         std::cerr << "tyndall_level: cannot write " << path << "\n";
         return kRunTimeFailure;
     }
-    std::ifstream in(path, std::ios::binary);
-    if (!in) {
+    const auto found = tyndall::modeling::read_file(path);
+    if (!found) {
         std::cerr << "tyndall_level: cannot read " << path << "\n";
         return kRunTimeFailure;
     }
-    const std::string found{std::istreambuf_iterator<char>(in), {}};
     std::string report;
-    auto failures = tyndall::level::check_level(level, materials, found.size(), report);
-    if (found != bytes) failures.push_back(path + ": differs from what this program writes, write it again");
+    auto failures = tyndall::level::check_level(level, materials, found->size(), report);
+    if (*found != bytes) failures.push_back(path + ": differs from what this program writes, write it again");
     std::cout << report;
     for (const std::string& line : failures) std::cerr << line << "\n";
     return failures.empty() ? 0 : kRunTimeFailure;

@@ -1,7 +1,5 @@
 #include "tools/level/materials.h"
 
-#include <array>
-
 #include "tools/level/texture.h"
 
 namespace tyndall::level {
@@ -10,11 +8,6 @@ using glm::vec2;
 using glm::vec3;
 
 namespace {
-
-constexpr std::array<float, kMaterialCount> kTileMetres{
-    2.4f, 1.5f, 2.0f, 3.0f, 2.0f, 3.0f, 1.0f, 1.2f, 2.0f, 2.0f, 4.0f, 8.0f,
-    90.f, 1.2f, 1.0f, 0.6f, 0.5f, 0.5f, 0.5f, 1.0f, 1.0f, 0.8f, 3.0f,
-};
 
 struct Set {
     MaterialSet out;
@@ -34,7 +27,7 @@ struct Set {
         Material m;
         m.name = name;
         m.albedo = image(encode_albedo(p, name + "_albedo", 92));
-        m.normal = image(encode_normal(p, name + "_normal", tile_metres(mat), 92));
+        m.normal = image(encode_normal(p, name + "_normal", mat.tile_metres, 92));
         m.surface = image(encode_surface(p, name + "_surface", 82));
         m.metallic = 1.0f;
         out.materials.push_back(m);
@@ -43,10 +36,6 @@ struct Set {
 };
 
 }  // namespace
-
-float tile_metres(Mat mat) {
-    return kTileMetres[static_cast<size_t>(mat)];
-}
 
 MaterialSet make_materials() {
     Set set;
@@ -74,7 +63,7 @@ MaterialSet make_materials() {
     set.painted("iron", Mat::Iron, 128, paint_iron);
     const Painted weave = paint(256, paint_cloth);
     const int cloth = set.image(encode_albedo(weave, "cloth_albedo", 75));
-    const int cloth_normal = set.image(encode_normal(weave, "cloth_normal", tile_metres(Mat::ClothRed), 80));
+    const int cloth_normal = set.image(encode_normal(weave, "cloth_normal", Mat::ClothRed.tile_metres, 80));
     auto dye = [&](const std::string& name, vec3 color) {
         Material& m = set.add(name);
         m.albedo = cloth;
@@ -103,7 +92,7 @@ MaterialSet make_materials() {
     Material& water = set.add("water");
     water.base_color = {0.02f, 0.03f, 0.03f, 1.0f};
     water.roughness = 0.06f;
-    water.normal = set.image(encode_normal(paint(256, paint_water), "water_normal", tile_metres(Mat::Water), 86));
+    water.normal = set.image(encode_normal(paint(256, paint_water), "water_normal", Mat::Water.tile_metres, 86));
     return std::move(set.out);
 }
 

@@ -1,65 +1,41 @@
 // The level's materials: names, texel density and the textures painted for them.
 #pragma once
 
-#include <glm/glm.hpp>
-#include <string>
-#include <vector>
+#include "tools/modeling/materials.h"
 
 namespace tyndall::level {
 
-enum class Mat {
-    Ashlar,
-    Trim,
-    Rubble,
-    Flags,
-    Cobbles,
-    Plaster,
-    Timber,
-    Planks,
-    Slate,
-    Clay,
-    Grass,
-    Rock,
-    Hills,
-    Bark,
-    Leaves,
-    Iron,
-    ClothRed,
-    ClothBlue,
-    ClothOchre,
-    Lantern,
-    Paper,
-    Window,
-    Water,
-    Count
+using namespace modeling;
+
+struct Mat : Surface {
+    static const Mat Ashlar, Trim, Rubble, Flags, Cobbles, Plaster, Timber, Planks, Slate, Clay, Grass, Rock, Hills,
+        Bark, Leaves, Iron, ClothRed, ClothBlue, ClothOchre, Lantern, Paper, Window, Water;
 };
-constexpr int kMaterialCount = static_cast<int>(Mat::Count);
+inline constexpr Mat Mat::Ashlar{{0, 2.4f}};
+inline constexpr Mat Mat::Trim{{1, 1.5f}};
+inline constexpr Mat Mat::Rubble{{2, 2.0f}};
+inline constexpr Mat Mat::Flags{{3, 3.0f}};
+inline constexpr Mat Mat::Cobbles{{4, 2.0f}};
+inline constexpr Mat Mat::Plaster{{5, 3.0f}};
+inline constexpr Mat Mat::Timber{{6, 1.0f}};
+inline constexpr Mat Mat::Planks{{7, 1.2f}};
+inline constexpr Mat Mat::Slate{{8, 2.0f}};
+inline constexpr Mat Mat::Clay{{9, 2.0f}};
+inline constexpr Mat Mat::Grass{{10, 4.0f}};
+inline constexpr Mat Mat::Rock{{11, 8.0f}};
+inline constexpr Mat Mat::Hills{{12, 90.0f}};
+inline constexpr Mat Mat::Bark{{13, 1.2f}};
+inline constexpr Mat Mat::Leaves{{14, 1.0f}};
+inline constexpr Mat Mat::Iron{{15, 0.6f}};
+inline constexpr Mat Mat::ClothRed{{16, 0.5f}};
+inline constexpr Mat Mat::ClothBlue{{17, 0.5f}};
+inline constexpr Mat Mat::ClothOchre{{18, 0.5f}};
+inline constexpr Mat Mat::Lantern{{19, 1.0f}};
+inline constexpr Mat Mat::Paper{{20, 1.0f}};
+inline constexpr Mat Mat::Window{{21, 0.8f}};
+inline constexpr Mat Mat::Water{{22, 3.0f}};
 
-// Length of one texture tile in metres.
-float tile_metres(Mat mat);
-
-struct EncodedImage {
-    std::string name, mime;
-    std::vector<unsigned char> bytes;
-};
-
-// Indices into MaterialSet::images, -1: none. Colours are linear.
-struct Material {
-    std::string name;
-    glm::vec4 base_color{1.0f};
-    float metallic = 0.0f, roughness = 1.0f;
-    int albedo = -1, normal = -1, surface = -1;  // surface: occlusion, roughness, metallic in r, g, b
-    glm::vec3 emissive{0.0f};
-    float emissive_strength = 0.0f;  // cd/m^2 for emissive 1
-    bool glow_from_albedo = false;   // the albedo texture also modulates the emission
-    bool mask = false, double_sided = false;
-};
-
-struct MaterialSet {
-    std::vector<Material> materials;  // in the order of Mat
-    std::vector<EncodedImage> images;
-};
-
+// In the order of Mat.
 MaterialSet make_materials();
 
 }  // namespace tyndall::level

@@ -1,6 +1,6 @@
 #include "tools/level/parts.h"
-#include "tools/level/random.h"
-#include "tools/level/shapes.h"
+#include "tools/modeling/random.h"
+#include "tools/modeling/shapes.h"
 
 namespace tyndall::level {
 
@@ -66,7 +66,7 @@ Mesh stall_mesh(const std::string& name, Mat cloth) {  // counter towards +Z, ba
                 const float drop = r ? -0.015f : 0.0f;
                 for (const float x : r ? std::array{x1, x0} : std::array{x0, x1}) {
                     v.push_back({at(x, t) + vec3(0, drop, 0), vec3(0, r ? -0.93f : 0.93f, r ? -0.36f : 0.36f),
-                                 vec2(x, t * 1.6f) / tile_metres(mat)});
+                                 vec2(x, t * 1.6f) / mat.tile_metres});
                 }
             }
             m.grid(mat, 4, 2, v);
@@ -90,7 +90,7 @@ Mesh banner_mesh(const std::string& name, Mat cloth) {  // hangs from a pole tha
             const float tail = r == 0 && z == 0.72f ? 0.35f : 0.0f;
             v.push_back({{x, z * 0.08f - 0.02f - 2.5f * t + tail, z},
                          glm::normalize(vec3(-1, 0, 0.3f * sine(t * 5.0f))),
-                         vec2(z, 2.5f * t) / tile_metres(cloth)});
+                         vec2(z, 2.5f * t) / cloth.tile_metres});
         }
     }
     m.grid(cloth, rows + 1, 3, v);

@@ -32,7 +32,7 @@ RayScene::RayScene(const Level& level, const MaterialSet& materials, bool with_l
         if (node.mesh < 0 || (!with_lamps && !node.cast_shadow)) continue;
         const mat4 world = level.world(static_cast<int>(i));
         for (const auto& [mat, part] : level.meshes[static_cast<size_t>(node.mesh)].parts) {
-            if (materials.materials[static_cast<size_t>(mat)].mask) continue;
+            if (materials.materials[static_cast<size_t>(mat.material)].mask) continue;
             auto at = [&](size_t k) { return vec3(world * vec4(part.vertices[part.indices[k]].position, 1.0f)); };
             for (size_t k = 0; k < part.indices.size(); k += 3) triangles_.push_back({at(k), at(k + 1), at(k + 2)});
         }

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "tools/level/parts.h"
-#include "tools/level/random.h"
 #include "tools/level/wall.h"
+#include "tools/modeling/random.h"
 
 namespace tyndall::level {
 
@@ -74,7 +74,7 @@ void height_field(Mesh& m) {
             const vec3 dx = at(b, j) - at(a - 1, j), dz = at(i, d) - at(i, c - 1), p = at(i, j);
             it->second = static_cast<uint32_t>(m.parts[mat].vertices.size());
             m.parts[mat].vertices.push_back(
-                {p, glm::normalize(glm::cross(dz, dx)), vec2(p.x, p.z) / tile_metres(mat)});
+                {p, glm::normalize(glm::cross(dz, dx)), vec2(p.x, p.z) / mat.tile_metres});
         }
         return it->second;
     };

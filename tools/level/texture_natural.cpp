@@ -1,8 +1,8 @@
 // Wood, plants, rock, cloth, metal, water, glass.
 #include <algorithm>
 
-#include "tools/level/random.h"
 #include "tools/level/texture.h"
+#include "tools/modeling/random.h"
 
 namespace tyndall::level {
 

@@ -1,8 +1,8 @@
 // Cut and broken stone, plaster, and what roofs are covered with.
 #include <algorithm>
 
-#include "tools/level/random.h"
 #include "tools/level/texture.h"
+#include "tools/modeling/random.h"
 
 namespace tyndall::level {
 

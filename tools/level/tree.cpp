@@ -1,7 +1,7 @@
 // The old lime tree of the court. Limbs and their foliage are nodes that sway in the animation "wind".
 #include "tools/level/parts.h"
-#include "tools/level/random.h"
-#include "tools/level/shapes.h"
+#include "tools/modeling/random.h"
+#include "tools/modeling/shapes.h"
 
 namespace tyndall::level {
 

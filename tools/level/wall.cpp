@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "tools/level/random.h"
+#include "tools/modeling/random.h"
 
 namespace tyndall::level {
 

@@ -1,7 +1,8 @@
 // Walls with real thickness and openings of any outline.
 #pragma once
 
-#include "tools/level/shapes.h"
+#include "tools/level/materials.h"
+#include "tools/modeling/shapes.h"
 
 namespace tyndall::level {
 

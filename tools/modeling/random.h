@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 
-namespace tyndall::level {
+namespace tyndall::modeling {
 
 constexpr float kPi = 3.14159265358979f;
 
@@ -60,10 +60,13 @@ class Random {
     uint32_t state_;
 };
 
+// x in [0, period); unchanged where the period is 0.
+int wrapped(int x, int period);
+
 // Value noise in [0,1], smooth, repeating every period.x by period.y cells (0: never).
 float value_noise(glm::vec2 p, glm::ivec2 period, uint32_t seed);
 
 // Sum of `octaves` value noises, each twice as fine and half as strong, in [0,1].
 float fractal_noise(glm::vec2 p, glm::ivec2 period, int octaves, uint32_t seed);
 
-}  // namespace tyndall::level
+}  // namespace tyndall::modeling

@@ -1,4 +1,4 @@
-#include "tools/level/gltf_writer.h"
+#include "tools/modeling/gltf_writer.h"
 
 #include <tiny_gltf.h>
 
@@ -7,7 +7,7 @@
 #include <cstring>
 #include <sstream>
 
-namespace tyndall::level {
+namespace tyndall::modeling {
 
 namespace {
 
@@ -127,11 +127,11 @@ struct Writer {
     void mesh(const Mesh& from, const MaterialSet& set) {
         tinygltf::Mesh mesh;
         mesh.name = from.name;
-        for (const auto& [mat, part] : from.parts) {
+        for (const auto& [surface, part] : from.parts) {
             if (part.indices.empty()) continue;
             tinygltf::Primitive p;
             p.mode = TINYGLTF_MODE_TRIANGLES;
-            p.material = static_cast<int>(mat);
+            p.material = surface.material;
             std::vector<float> position, normal, uv, tangent;
             for (const Vertex& v : part.vertices) {
                 position.insert(position.end(), {v.position.x, v.position.y, v.position.z});
@@ -142,7 +142,7 @@ struct Writer {
             p.attributes["POSITION"] = floats(position, 3, TINYGLTF_TYPE_VEC3, target, true);
             p.attributes["NORMAL"] = floats(normal, 3, TINYGLTF_TYPE_VEC3, target, false);
             p.attributes["TEXCOORD_0"] = floats(uv, 2, TINYGLTF_TYPE_VEC2, target, false);
-            if (set.materials[static_cast<size_t>(mat)].normal >= 0) {
+            if (set.materials[static_cast<size_t>(surface.material)].normal >= 0) {
                 for (const vec4& t : tangents(part)) tangent.insert(tangent.end(), {t.x, t.y, t.z, t.w});
                 p.attributes["TANGENT"] = floats(tangent, 4, TINYGLTF_TYPE_VEC4, target, false);
             }
@@ -178,8 +178,8 @@ struct Writer {
         model.lights.push_back(light);
     }
 
-    void nodes(const Level& level) {
-        for (const Node& from : level.nodes) {
+    void nodes(const Scene& scene) {
+        for (const Node& from : scene.nodes) {
             tinygltf::Node node;
             node.name = from.name;
             if (from.translation != vec3(0.0f)) node.translation = numbers(from.translation);
@@ -194,15 +194,17 @@ struct Writer {
             if (!from.cast_shadow) node.extras = Value(Object{{"cast_shadow", Value(false)}});
             model.nodes.push_back(node);
         }
-        tinygltf::Scene scene;
-        scene.name = "abbey";
-        for (size_t i = 0; i < level.nodes.size(); ++i) {
-            const int parent = level.nodes[i].parent, self = static_cast<int>(i);
-            (parent < 0 ? scene.nodes : model.nodes[static_cast<size_t>(parent)].children).push_back(self);
+        tinygltf::Scene root;
+        root.name = scene.name;
+        for (size_t i = 0; i < scene.nodes.size(); ++i) {
+            const int parent = scene.nodes[i].parent, self = static_cast<int>(i);
+            (parent < 0 ? root.nodes : model.nodes[static_cast<size_t>(parent)].children).push_back(self);
         }
-        scene.extras = to_value(
-            {{"media", level.media}, {"exposure", level.exposure}, {"sky", {{"turbidity", level.turbidity}}}});
-        model.scenes.push_back(scene);
+        nlohmann::json extras = scene.extras;
+        extras["media"] = scene.media;
+        extras["exposure"] = scene.exposure;
+        root.extras = to_value(extras);
+        model.scenes.push_back(root);
         model.defaultScene = 0;
     }
 
@@ -259,14 +261,14 @@ std::string without_zero_zfar(const std::string& glb) {
 
 }  // namespace
 
-std::string to_glb(const Level& level, const MaterialSet& set) {
+std::string to_glb(const Scene& scene, const MaterialSet& set, const std::string& generator) {
     Writer w;
     w.model.asset.version = "2.0";
-    w.model.asset.generator = "tyndall_level";
+    w.model.asset.generator = generator;
     w.materials(set);
-    for (const Mesh& mesh : level.meshes) w.mesh(mesh, set);
-    for (const Light& light : level.lights) w.light(light);
-    for (const Camera& from : level.cameras) {
+    for (const Mesh& mesh : scene.meshes) w.mesh(mesh, set);
+    for (const Light& light : scene.lights) w.light(light);
+    for (const Camera& from : scene.cameras) {
         tinygltf::Camera camera;
         camera.name = from.name;
         camera.type = "perspective";
@@ -275,8 +277,8 @@ std::string to_glb(const Level& level, const MaterialSet& set) {
         camera.perspective.znear = 0.1;
         w.model.cameras.push_back(camera);
     }
-    w.nodes(level);
-    for (const Animation& animation : level.animations) w.animation(animation);
+    w.nodes(scene);
+    for (const Animation& animation : scene.animations) w.animation(animation);
     w.model.extensionsUsed = {"KHR_materials_emissive_strength", "KHR_lights_punctual"};
     tinygltf::Buffer buffer;
     buffer.data = std::move(w.bytes);
@@ -287,4 +289,4 @@ std::string to_glb(const Level& level, const MaterialSet& set) {
     return without_zero_zfar(out.str());
 }
 
-}  // namespace tyndall::level
+}  // namespace tyndall::modeling

@@ -1,8 +1,8 @@
-#include "tools/level/mesh.h"
+#include "tools/modeling/mesh.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 
-namespace tyndall::level {
+namespace tyndall::modeling {
 
 void planar_axes(vec3 normal, vec3& u, vec3& v) {
     if (std::abs(normal.y) > 0.94f) {
@@ -13,7 +13,7 @@ void planar_axes(vec3 normal, vec3& u, vec3& v) {
     v = glm::cross(normal, u);
 }
 
-void Mesh::polygon(Mat mat, std::span<const vec3> points) {
+void Mesh::polygon(Surface surface, std::span<const vec3> points) {
     vec3 area(0.0f);
     std::vector<vec3> p(points.size());
     for (size_t i = 0; i < p.size(); ++i) p[i] = vec3(transform * vec4(points[i], 1.0f));
@@ -23,32 +23,32 @@ void Mesh::polygon(Mat mat, std::span<const vec3> points) {
     const vec3 normal = area / length;
     vec3 u, v;
     planar_axes(normal, u, v);
-    const float scale = 1.0f / tile_metres(mat);
-    Primitive& part = parts[mat];
+    const float scale = 1.0f / surface.tile_metres;
+    Primitive& part = parts[surface];
     const auto base = static_cast<uint32_t>(part.vertices.size());
     for (const vec3& x : p) part.vertices.push_back({x, normal, vec2(glm::dot(x, u), -glm::dot(x, v)) * scale});
     for (uint32_t i = 1; i + 1 < p.size(); ++i)
         part.indices.insert(part.indices.end(), {base, base + i, base + i + 1});
 }
 
-void Mesh::quad(Mat mat, vec3 a, vec3 b, vec3 c, vec3 d) {
-    polygon(mat, std::array{a, b, c, d});
+void Mesh::quad(Surface surface, vec3 a, vec3 b, vec3 c, vec3 d) {
+    polygon(surface, std::array{a, b, c, d});
 }
 
-void Mesh::triangle(Mat mat, vec3 a, vec3 b, vec3 c) {
-    polygon(mat, std::array{a, b, c});
+void Mesh::triangle(Surface surface, vec3 a, vec3 b, vec3 c) {
+    polygon(surface, std::array{a, b, c});
 }
 
-void Mesh::quad_uv(Mat mat, const std::array<vec3, 4>& p, const std::array<vec2, 4>& uv) {
+void Mesh::quad_uv(Surface surface, const std::array<vec3, 4>& p, const std::array<vec2, 4>& uv) {
     const vec3 normal = glm::normalize(glm::mat3(transform) * glm::cross(p[1] - p[0], p[3] - p[0]));
-    Primitive& part = parts[mat];
+    Primitive& part = parts[surface];
     const auto base = static_cast<uint32_t>(part.vertices.size());
     for (size_t i = 0; i < 4; ++i) part.vertices.push_back({vec3(transform * vec4(p[i], 1.0f)), normal, uv[i]});
     part.indices.insert(part.indices.end(), {base, base + 1, base + 2, base, base + 2, base + 3});
 }
 
-void Mesh::grid(Mat mat, int rows, int columns, std::span<const Vertex> vertices) {
-    Primitive& part = parts[mat];
+void Mesh::grid(Surface surface, int rows, int columns, std::span<const Vertex> vertices) {
+    Primitive& part = parts[surface];
     const auto base = static_cast<uint32_t>(part.vertices.size());
     for (const Vertex& x : vertices) {
         part.vertices.push_back(
@@ -72,8 +72,8 @@ void Mesh::grid(Mat mat, int rows, int columns, std::span<const Vertex> vertices
 
 void Mesh::append(const Mesh& other, const mat4& placement) {
     const mat4 m = transform * placement;
-    for (const auto& [mat, from] : other.parts) {
-        Primitive& to = parts[mat];
+    for (const auto& [surface, from] : other.parts) {
+        Primitive& to = parts[surface];
         const auto base = static_cast<uint32_t>(to.vertices.size());
         for (const Vertex& x : from.vertices) {
             to.vertices.push_back(
@@ -85,7 +85,7 @@ void Mesh::append(const Mesh& other, const mat4& placement) {
 
 size_t Mesh::triangles() const {
     size_t count = 0;
-    for (const auto& [mat, part] : parts) count += part.indices.size() / 3;
+    for (const auto& [surface, part] : parts) count += part.indices.size() / 3;
     return count;
 }
 
@@ -119,4 +119,4 @@ std::vector<vec4> tangents(const Primitive& primitive) {
     return result;
 }
 
-}  // namespace tyndall::level
+}  // namespace tyndall::modeling

@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "tools/level/materials.h"
+#include "tools/modeling/materials.h"
 
-namespace tyndall::level {
+namespace tyndall::modeling {
 
 using glm::mat4;
 using glm::quat;
@@ -34,17 +34,17 @@ struct Primitive {
 // uniform scale. Texture coordinates of flat faces come from a planar projection at the material's texel density.
 struct Mesh {
     std::string name;
-    std::map<Mat, Primitive> parts;
+    std::map<Surface, Primitive> parts;
     mat4 transform{1.0f};
 
     // Convex, flat, counter-clockwise seen from outside.
-    void polygon(Mat mat, std::span<const vec3> points);
-    void quad(Mat mat, vec3 a, vec3 b, vec3 c, vec3 d);
-    void triangle(Mat mat, vec3 a, vec3 b, vec3 c);
+    void polygon(Surface surface, std::span<const vec3> points);
+    void quad(Surface surface, vec3 a, vec3 b, vec3 c, vec3 d);
+    void triangle(Surface surface, vec3 a, vec3 b, vec3 c);
     // The same with given texture coordinates, already in tiles.
-    void quad_uv(Mat mat, const std::array<vec3, 4>& p, const std::array<vec2, 4>& uv);
+    void quad_uv(Surface surface, const std::array<vec3, 4>& p, const std::array<vec2, 4>& uv);
     // rows x columns vertices, row-major; seen from outside, columns run right and rows run up.
-    void grid(Mat mat, int rows, int columns, std::span<const Vertex> vertices);
+    void grid(Surface surface, int rows, int columns, std::span<const Vertex> vertices);
     void append(const Mesh& other, const mat4& placement);
     [[nodiscard]] size_t triangles() const;
 };
@@ -55,4 +55,4 @@ void planar_axes(vec3 normal, vec3& u, vec3& v);
 // One tangent per vertex, xyz orthogonal to the normal and w the handedness of glTF, from the texture coordinates.
 std::vector<vec4> tangents(const Primitive& primitive);
 
-}  // namespace tyndall::level
+}  // namespace tyndall::modeling

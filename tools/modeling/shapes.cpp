@@ -1,22 +1,22 @@
-#include "tools/level/shapes.h"
+#include "tools/modeling/shapes.h"
 
 #include <algorithm>
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "tools/level/random.h"
+#include "tools/modeling/random.h"
 
-namespace tyndall::level {
+namespace tyndall::modeling {
 
-void box(Mesh& mesh, Mat mat, vec3 l, vec3 h, unsigned skip) {
-    if (!(skip & kLeft)) mesh.quad(mat, {l.x, l.y, l.z}, {l.x, l.y, h.z}, {l.x, h.y, h.z}, {l.x, h.y, l.z});
-    if (!(skip & kRight)) mesh.quad(mat, {h.x, l.y, h.z}, {h.x, l.y, l.z}, {h.x, h.y, l.z}, {h.x, h.y, h.z});
-    if (!(skip & kBottom)) mesh.quad(mat, {l.x, l.y, l.z}, {h.x, l.y, l.z}, {h.x, l.y, h.z}, {l.x, l.y, h.z});
-    if (!(skip & kTop)) mesh.quad(mat, {l.x, h.y, h.z}, {h.x, h.y, h.z}, {h.x, h.y, l.z}, {l.x, h.y, l.z});
-    if (!(skip & kBack)) mesh.quad(mat, {h.x, l.y, l.z}, {l.x, l.y, l.z}, {l.x, h.y, l.z}, {h.x, h.y, l.z});
-    if (!(skip & kFront)) mesh.quad(mat, {l.x, l.y, h.z}, {h.x, l.y, h.z}, {h.x, h.y, h.z}, {l.x, h.y, h.z});
+void box(Mesh& mesh, Surface surface, vec3 l, vec3 h, unsigned skip) {
+    if (!(skip & kLeft)) mesh.quad(surface, {l.x, l.y, l.z}, {l.x, l.y, h.z}, {l.x, h.y, h.z}, {l.x, h.y, l.z});
+    if (!(skip & kRight)) mesh.quad(surface, {h.x, l.y, h.z}, {h.x, l.y, l.z}, {h.x, h.y, l.z}, {h.x, h.y, h.z});
+    if (!(skip & kBottom)) mesh.quad(surface, {l.x, l.y, l.z}, {h.x, l.y, l.z}, {h.x, l.y, h.z}, {l.x, l.y, h.z});
+    if (!(skip & kTop)) mesh.quad(surface, {l.x, h.y, h.z}, {h.x, h.y, h.z}, {h.x, h.y, l.z}, {l.x, h.y, l.z});
+    if (!(skip & kBack)) mesh.quad(surface, {h.x, l.y, l.z}, {l.x, l.y, l.z}, {l.x, h.y, l.z}, {h.x, h.y, l.z});
+    if (!(skip & kFront)) mesh.quad(surface, {l.x, l.y, h.z}, {h.x, l.y, h.z}, {h.x, h.y, h.z}, {l.x, h.y, h.z});
 }
 
-void chamfered_box(Mesh& mesh, Mat mat, vec3 low, vec3 high, float cut) {
+void chamfered_box(Mesh& mesh, Surface surface, vec3 low, vec3 high, float cut) {
     const vec3 centre = (low + high) * 0.5f, half = (high - low) * 0.5f;
     auto point = [&](vec3 sign, int axis) {  // corner of the inset face on `axis`
         vec3 p = sign * (half - cut);
@@ -26,7 +26,7 @@ void chamfered_box(Mesh& mesh, Mat mat, vec3 low, vec3 high, float cut) {
     auto outward = [&](std::vector<vec3> p) {  // orders the points so that the face looks away from the centre
         const vec3 n = glm::cross(p[1] - p[0], p[2] - p[0]);
         if (glm::dot(n, p[0] + p[1] + p[2] - 3.0f * centre) < 0.0f) std::ranges::reverse(p);
-        mesh.polygon(mat, p);
+        mesh.polygon(surface, p);
     };
     for (int a = 0; a < 3; ++a) {
         const int b = (a + 1) % 3, c = (a + 2) % 3;
@@ -50,12 +50,12 @@ void chamfered_box(Mesh& mesh, Mat mat, vec3 low, vec3 high, float cut) {
     }
 }
 
-void beam(Mesh& mesh, Mat mat, vec3 a, vec3 b, float width, float height, vec3 up, bool ends) {
+void beam(Mesh& mesh, Surface surface, vec3 a, vec3 b, float width, float height, vec3 up, bool ends) {
     const vec3 along = glm::normalize(b - a);
     if (std::abs(glm::dot(along, up)) > 0.98f) up = std::abs(along.x) > 0.9f ? vec3(0, 0, 1) : vec3(1, 0, 0);
     const vec3 right = glm::normalize(glm::cross(along, up)) * (width * 0.5f);
     const vec3 top = glm::normalize(glm::cross(right, along)) * (height * 0.5f);
-    const float scale = 1.0f / tile_metres(mat), length = glm::length(b - a) * scale;
+    const float scale = 1.0f / surface.tile_metres, length = glm::length(b - a) * scale;
     const float shift = glm::dot(a, vec3(0.37f, 0.73f, 0.59f));  // so that no two beams show the same grain
     const std::array<vec3, 4> ring{-right - top, right - top, right + top, -right + top};
     float u = shift - std::floor(shift);
@@ -63,30 +63,30 @@ void beam(Mesh& mesh, Mat mat, vec3 a, vec3 b, float width, float height, vec3 u
         const vec3 p = ring[i], q = ring[(i + 1) % 4];
         const float du = glm::length(q - p) * scale;
         // Seen from outside with `along` pointing up, the ring runs to the left when looked at against travel.
-        mesh.quad_uv(mat, {a + q, a + p, b + p, b + q},
+        mesh.quad_uv(surface, {a + q, a + p, b + p, b + q},
                      {vec2(u + du, length), vec2(u, length), vec2(u, 0), vec2(u + du, 0)});
         u += du;
     }
     if (!ends) return;
     const vec2 d = vec2(width, height) * scale;
-    mesh.quad_uv(mat, {a + ring[0], a + ring[1], a + ring[2], a + ring[3]},
+    mesh.quad_uv(surface, {a + ring[0], a + ring[1], a + ring[2], a + ring[3]},
                  {vec2(0, 0), vec2(d.x, 0), vec2(d.x, -d.y), vec2(0, -d.y)});
-    mesh.quad_uv(mat, {b + ring[1], b + ring[0], b + ring[3], b + ring[2]},
+    mesh.quad_uv(surface, {b + ring[1], b + ring[0], b + ring[3], b + ring[2]},
                  {vec2(0, 0), vec2(d.x, 0), vec2(d.x, -d.y), vec2(0, -d.y)});
 }
 
-void extrude(Mesh& mesh, Mat mat, std::span<const vec3> front, vec3 depth) {
-    mesh.polygon(mat, front);
+void extrude(Mesh& mesh, Surface surface, std::span<const vec3> front, vec3 depth) {
+    mesh.polygon(surface, front);
     std::vector<vec3> back(front.rbegin(), front.rend());
     for (vec3& p : back) p += depth;
-    mesh.polygon(mat, back);
+    mesh.polygon(surface, back);
     for (size_t i = 0; i < front.size(); ++i) {
         const vec3 p = front[i], q = front[(i + 1) % front.size()];
-        mesh.quad(mat, q, p, p + depth, q + depth);
+        mesh.quad(surface, q, p, p + depth, q + depth);
     }
 }
 
-void lathe(Mesh& mesh, Mat mat, vec3 base, std::span<const vec2> profile, int segments, float turn) {
+void lathe(Mesh& mesh, Surface surface, vec3 base, std::span<const vec2> profile, int segments, float turn) {
     const size_t count = profile.size() - 1;
     std::vector<vec2> normals(count);
     float radius = 0.0f;
@@ -95,11 +95,11 @@ void lathe(Mesh& mesh, Mat mat, vec3 base, std::span<const vec2> profile, int se
         normals[i] = glm::normalize(vec2(d.y, -d.x));
         radius = std::max({radius, profile[i].x, profile[i + 1].x});
     }
-    const float tiles = std::max(1.0f, std::round(2.0f * kPi * radius / tile_metres(mat)));
+    const float tiles = std::max(1.0f, std::round(2.0f * kPi * radius / surface.tile_metres));
     auto joined = [&](size_t i, size_t j) { return glm::dot(normals[i], normals[j]) > 0.766f; };
     float v = 0.0f;
     for (size_t i = 0; i < count; ++i) {
-        const float dv = glm::length(profile[i + 1] - profile[i]) / tile_metres(mat);
+        const float dv = glm::length(profile[i + 1] - profile[i]) / surface.tile_metres;
         const vec2 n0 = i > 0 && joined(i - 1, i) ? glm::normalize(normals[i - 1] + normals[i]) : normals[i];
         const vec2 n1 =
             i + 1 < count && joined(i, i + 1) ? glm::normalize(normals[i] + normals[i + 1]) : normals[i];
@@ -115,7 +115,7 @@ void lathe(Mesh& mesh, Mat mat, vec3 base, std::span<const vec2> profile, int se
                      vec2(static_cast<float>(s) / static_cast<float>(segments) * tiles, -(v + (r ? dv : 0.0f)))});
             }
         }
-        mesh.grid(mat, 2, segments + 1, rings);
+        mesh.grid(surface, 2, segments + 1, rings);
         v += dv;
     }
 }
@@ -139,7 +139,8 @@ std::vector<vec3> directions(std::span<const vec3> path, bool loop) {
 
 }  // namespace
 
-void sweep(Mesh& mesh, Mat mat, std::span<const vec3> path, std::span<const vec2> section, vec3 up, bool loop) {
+void sweep(Mesh& mesh, Surface surface, std::span<const vec3> path, std::span<const vec2> section, vec3 up,
+           bool loop) {
     const std::vector<vec3> dir = directions(path, loop);
     const size_t n = path.size(), m = section.size();
     std::vector<std::vector<vec3>> rings(n, std::vector<vec3>(m));
@@ -147,7 +148,7 @@ void sweep(Mesh& mesh, Mat mat, std::span<const vec3> path, std::span<const vec2
         const vec3 right = glm::normalize(glm::cross(dir[i], up)), top = glm::cross(right, dir[i]);
         for (size_t k = 0; k < m; ++k) rings[i][k] = path[i] + right * section[k].x + top * section[k].y;
     }
-    const float scale = 1.0f / tile_metres(mat);
+    const float scale = 1.0f / surface.tile_metres;
     float v = 0.0f;
     for (size_t i = 0; i + (loop ? 0 : 1) < n; ++i) {
         const size_t j = (i + 1) % n;
@@ -157,16 +158,16 @@ void sweep(Mesh& mesh, Mat mat, std::span<const vec3> path, std::span<const vec2
             const size_t l = (k + 1) % m;
             const float du = glm::length(section[l] - section[k]) * scale;
             // The section is counter-clockwise seen against the travel, so the outside is on this side of the quad.
-            mesh.quad_uv(mat, {rings[i][l], rings[i][k], rings[j][k], rings[j][l]},
+            mesh.quad_uv(surface, {rings[i][l], rings[i][k], rings[j][k], rings[j][l]},
                          {vec2(u + du, -v), vec2(u, -v), vec2(u, -v - dv), vec2(u + du, -v - dv)});
             u += du;
         }
         v += dv;
     }
     if (!loop) {
-        mesh.polygon(mat, rings.front());
+        mesh.polygon(surface, rings.front());
         std::ranges::reverse(rings.back());
-        mesh.polygon(mat, rings.back());
+        mesh.polygon(surface, rings.back());
     }
 }
 
@@ -179,16 +180,16 @@ std::vector<vec2> chamfered_section(float w, float h, float c) {
     return {{-x + c, -y}, {x - c, -y}, {x, -y + c}, {x, y - c}, {x - c, y}, {-x + c, y}, {-x, y - c}, {-x, -y + c}};
 }
 
-void tube(Mesh& mesh, Mat mat, std::span<const vec3> path, std::span<const float> radii, int segments) {
+void tube(Mesh& mesh, Surface surface, std::span<const vec3> path, std::span<const float> radii, int segments) {
     const std::vector<vec3> dir = directions(path, false);
     vec3 right = std::abs(dir[0].y) > 0.9f ? vec3(1, 0, 0) : glm::normalize(glm::cross(dir[0], vec3(0, 1, 0)));
-    const float tiles = std::max(1.0f, std::round(2.0f * kPi * radii[0] / tile_metres(mat)));
+    const float tiles = std::max(1.0f, std::round(2.0f * kPi * radii[0] / surface.tile_metres));
     std::vector<Vertex> vertices;
     float v = 0.0f;
     for (size_t i = 0; i < path.size(); ++i) {
         right = glm::normalize(right - dir[i] * glm::dot(right, dir[i]));
         const vec3 other = glm::cross(dir[i], right);
-        if (i > 0) v += glm::length(path[i] - path[i - 1]) / tile_metres(mat);
+        if (i > 0) v += glm::length(path[i] - path[i - 1]) / surface.tile_metres;
         for (int s = 0; s <= segments; ++s) {
             const float angle = 2.0f * kPi * static_cast<float>(s % segments) / static_cast<float>(segments);
             const vec3 n = right * cosine(angle) + other * sine(angle);
@@ -196,18 +197,19 @@ void tube(Mesh& mesh, Mat mat, std::span<const vec3> path, std::span<const float
                                 vec2(static_cast<float>(s) / static_cast<float>(segments) * tiles, -v)});
         }
     }
-    mesh.grid(mat, static_cast<int>(path.size()), segments + 1, vertices);
+    mesh.grid(surface, static_cast<int>(path.size()), segments + 1, vertices);
 }
 
-void gable_roof(Mesh& mesh, Mat mat, Mat under, vec3 a, vec3 b, float half_width, float eave_y, float thickness) {
+void gable_roof(Mesh& mesh, Surface surface, Surface under, vec3 a, vec3 b, float half_width, float eave_y,
+                float thickness) {
     const vec3 along = glm::normalize(b - a), side = glm::cross(along, vec3(0, 1, 0)) * half_width;
     const vec3 down(0, -thickness, 0), drop(0, eave_y - a.y, 0);
     for (const float s : {-1.0f, 1.0f}) {
         const vec3 ea = a + side * s + drop, eb = b + side * s + drop;
-        auto face = [&](Mat m, vec3 p, vec3 q, vec3 r, vec3 t) {
-            s > 0 ? mesh.quad(m, p, q, r, t) : mesh.quad(m, t, r, q, p);
+        auto face = [&](Surface face_surface, vec3 p, vec3 q, vec3 r, vec3 t) {
+            s > 0 ? mesh.quad(face_surface, p, q, r, t) : mesh.quad(face_surface, t, r, q, p);
         };
-        face(mat, ea, eb, b, a);
+        face(surface, ea, eb, b, a);
         face(under, a + down, b + down, eb + down, ea + down);
         face(under, ea + down, eb + down, eb, ea);
         face(under, a + down, ea + down, ea, a);
@@ -215,24 +217,24 @@ void gable_roof(Mesh& mesh, Mat mat, Mat under, vec3 a, vec3 b, float half_width
     }
 }
 
-void spire(Mesh& mesh, Mat mat, vec3 centre, float radius, float height, int sides) {
+void spire(Mesh& mesh, Surface surface, vec3 centre, float radius, float height, int sides) {
     const vec3 tip = centre + vec3(0, height, 0);
     auto corner = [&](int i) {
         const float angle = 2.0f * kPi * (static_cast<float>(i % sides) + 0.5f) / static_cast<float>(sides);
         return centre + vec3(cosine(angle), 0, -sine(angle)) * radius;
     };
-    for (int i = 0; i < sides; ++i) mesh.triangle(mat, corner(i), corner(i + 1), tip);
+    for (int i = 0; i < sides; ++i) mesh.triangle(surface, corner(i), corner(i + 1), tip);
 }
 
-void slab(Mesh& mesh, Mat mat, vec3 a, vec3 b, vec3 c, vec3 d, float thickness, Mat under) {
+void slab(Mesh& mesh, Surface surface, vec3 a, vec3 b, vec3 c, vec3 d, float thickness, Surface under) {
     const vec3 down(0, -thickness, 0);
-    mesh.quad(mat, a, b, c, d);
+    mesh.quad(surface, a, b, c, d);
     mesh.quad(under, d + down, c + down, b + down, a + down);
     const std::array<vec3, 4> p{a, b, c, d};
     for (size_t i = 0; i < 4; ++i) mesh.quad(under, p[i] + down, p[(i + 1) % 4] + down, p[(i + 1) % 4], p[i]);
 }
 
-void steps(Mesh& mesh, Mat mat, vec3 foot, vec3 along, float width, int count, float rise, float run,
+void steps(Mesh& mesh, Surface surface, vec3 foot, vec3 along, float width, int count, float rise, float run,
            float floor_y) {
     const vec3 side = glm::cross(along, vec3(0, 1, 0)) * (width * 0.5f);
     auto at = [](vec3 p, float height) { return vec3(p.x, height, p.z); };
@@ -240,14 +242,14 @@ void steps(Mesh& mesh, Mat mat, vec3 foot, vec3 along, float width, int count, f
         const vec3 middle = foot + along * (run * static_cast<float>(i));
         const vec3 a = middle - side, b = middle + side, a2 = a + along * run, b2 = b + along * run;
         const float y = foot.y + rise * static_cast<float>(i), top = y + rise;
-        mesh.quad(mat, at(a, y), at(b, y), at(b, top), at(a, top));        // riser
-        mesh.quad(mat, at(a, top), at(b, top), at(b2, top), at(a2, top));  // tread
-        mesh.quad(mat, at(a2, floor_y), at(a, floor_y), at(a, top), at(a2, top));
-        mesh.quad(mat, at(b, floor_y), at(b2, floor_y), at(b2, top), at(b, top));
+        mesh.quad(surface, at(a, y), at(b, y), at(b, top), at(a, top));        // riser
+        mesh.quad(surface, at(a, top), at(b, top), at(b2, top), at(a2, top));  // tread
+        mesh.quad(surface, at(a2, floor_y), at(a, floor_y), at(a, top), at(a2, top));
+        mesh.quad(surface, at(b, floor_y), at(b2, floor_y), at(b2, top), at(b, top));
     }
     const vec3 end = foot + along * (run * static_cast<float>(count)), a = end - side, b = end + side;
     const float top = foot.y + rise * static_cast<float>(count);
-    mesh.quad(mat, at(b, floor_y), at(a, floor_y), at(a, top), at(b, top));
+    mesh.quad(surface, at(b, floor_y), at(a, floor_y), at(a, top), at(b, top));
 }
 
 mat4 place(vec3 position, float yaw_degrees, float scale) {
@@ -255,4 +257,4 @@ mat4 place(vec3 position, float yaw_degrees, float scale) {
     return {vec4(c, 0, -s, 0), vec4(0, scale, 0, 0), vec4(s, 0, c, 0), vec4(position, 1)};
 }
 
-}  // namespace tyndall::level
+}  // namespace tyndall::modeling
