@@ -1,0 +1,57 @@
+#include "reference/phase.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "tests/unit/shader_lib/quadrature.h"
+
+namespace tyndall::reference {
+namespace {
+
+using Phase = double (*)(double, double);
+constexpr double pi = std::numbers::pi;
+
+/// Over the sphere, in x = -log(1.0001 - cos) and its mirror image, which spread the peaks out.
+double over_sphere(Phase phase, double g, double power_of_cosine) {
+    const auto half = [&](double side) {
+        constexpr double offset = 1e-7;
+        const auto f = [&](double x) {
+            const double below_one = std::exp(x) - offset;
+            const double cosine = side * (1 - below_one);
+            return 2 * pi * phase(g, cosine) * std::pow(cosine, power_of_cosine) * (below_one + offset);
+        };
+        return test::integrate(f, std::log(offset), std::log(1 + offset), 1e-12);
+    };
+    return half(1) + half(-1);
+}
+
+TEST(ReferencePhase, IntegratesToOne) {
+    for (const Phase phase : {&henyey_greenstein, &schlick})
+        for (const double g : {-0.999, -0.95, -0.4, 0.0, 0.3, 0.76, 0.93, 0.95, 0.999, 1.0})
+            EXPECT_NEAR(over_sphere(phase, g, 0), 1, 1e-8) << g;
+}
+
+TEST(ReferencePhase, MeanCosineOfHenyeyGreensteinIsG) {
+    for (const double g : {-0.9, -0.2, 0.0, 0.5, 0.99}) EXPECT_NEAR(over_sphere(&henyey_greenstein, g, 1), g, 1e-8);
+}
+
+TEST(ReferencePhase, SchlickIsCloseToHenyeyGreenstein) {
+    for (const double cosine : {-1.0, -0.3, 0.4, 0.8})
+        EXPECT_NEAR(schlick(0.4, cosine), henyey_greenstein(0.4, cosine), 0.02);
+    EXPECT_DOUBLE_EQ(schlick(0, 0.3), 1 / (4 * pi));
+    EXPECT_DOUBLE_EQ(henyey_greenstein(0, 0.3), 1 / (4 * pi));
+}
+
+TEST(ReferencePhase, PeakIsForwardForPositiveG) {
+    for (const double g : {0.3, 0.9, 0.999}) {
+        EXPECT_DOUBLE_EQ(henyey_greenstein(g, 1), henyey_greenstein_peak(-g));
+        EXPECT_DOUBLE_EQ(schlick(-g, -1), schlick_peak(g));
+        EXPECT_GT(henyey_greenstein(g, 1), henyey_greenstein(g, -1));
+        EXPECT_GT(schlick(g, 1), schlick(g, 0.99));
+    }
+}
+
+}  // namespace
+}  // namespace tyndall::reference
