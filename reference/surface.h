@@ -3,6 +3,7 @@
 #include <glm/glm.hpp>
 
 #include "reference/geometry.h"
+#include "reference/sky_table.h"
 
 namespace tyndall::reference {
 
@@ -15,8 +16,8 @@ struct Surface {
     double dielectric_f0;  ///< reflectance at normal incidence where not metal
     dvec3 emissive;        ///< cd/m²
 };
-[[nodiscard]] Surface surface_at(const Scene& scene, const Geometry& geometry, const Geometry::Hit& hit, dvec3 origin,
-                                 dvec3 unit_direction);
+[[nodiscard]] Surface surface_at(const Scene& scene, const Geometry& geometry, const Geometry::Hit& hit,
+                                 dvec3 origin, dvec3 unit_direction);
 
 /// BRDF times cosine [1/sr]: reflected radiance per unit of illuminance on a plane that faces the light. glTF 2.0
 /// appendix B (GGX, height-correlated Smith, Schlick), written on its own: shares nothing with the shaders. Unit
@@ -31,14 +32,13 @@ class Sky {
     Sky(const Scene& scene, double factor);
     [[nodiscard]] bool dark() const;
     [[nodiscard]] dvec3 background(dvec3 unit_direction) const;  ///< seen behind the scene, cd/m²
-    [[nodiscard]] dvec3 mean_radiance() const;                   ///< over the sphere, without the disc, times factor
-    /// What a surface reflects of it, without occlusion by the scene: the integral of sky, BRDF and cosine times the
-    /// material's occlusion and the factor.
+    [[nodiscard]] dvec3 mean_radiance() const;  ///< over the sphere, without the disc, times factor
+    /// What a surface reflects of it, without occlusion by the scene: the integral of sky, BRDF and cosine times
+    /// the material's occlusion and the factor.
     [[nodiscard]] dvec3 reflected(const Surface& surface, dvec3 to_eye) const;
 
   private:
-    std::vector<dvec3> direction_, weighted_radiance_;  ///< equal-area nodes of the sphere
-    dvec3 mean_{0};
+    SkyTable table_;  ///< without clouds and disc
     dvec3 to_sun_{0, 1, 0};
     dvec3 illuminance_{0};
     double factor_;

@@ -1,0 +1,79 @@
+#include "reference/sky_table.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace tyndall::reference {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+constexpr int rows = 96, columns = 192;           // of each half
+constexpr int patch_rows = 6, patch_columns = 8;  // cells of a patch
+/// Sine of the elevation at which the sky model's eye, 300 m above a ground of radius 6360 km, sees the horizon.
+const double horizon = -std::sqrt(1 - std::pow(6360 / 6360.3, 2));
+
+/// Sine of the elevation at `row` (0: horizon, rows: nadir or zenith). Its steps are solid angles.
+double height(bool above, double row) {
+    const double s = row / rows, far = above ? 1 : -1;
+    return horizon + (far - horizon) * s * s;
+}
+
+dvec3 direction(double sine, double column) {
+    const double azimuth = 2 * pi * column / columns, cosine = std::sqrt(std::max(1 - sine * sine, 0.0));
+    return {cosine * std::cos(azimuth), sine, cosine * std::sin(azimuth)};
+}
+
+double solid_angle(bool above, int row) {
+    return std::abs(height(above, row + 1) - height(above, row)) * 2 * pi / columns;
+}
+
+std::size_t cell(bool above, int row, int column) {
+    return static_cast<std::size_t>((above ? rows + row : row) * columns + column);
+}
+
+}  // namespace
+
+SkyTable::SkyTable(const std::function<dvec3(dvec3)>& radiance) : cells_(2 * rows * columns) {
+    for (const bool above : {false, true})
+        for (int row = 0; row < rows; ++row)
+            for (int column = 0; column < columns; ++column)
+                cells_[cell(above, row, column)] =
+                    radiance(direction(0.5 * (height(above, row) + height(above, row + 1)), column + 0.5));
+
+    for (const bool above : {false, true})
+        for (int row = 0; row < rows; row += patch_rows)
+            for (int column = 0; column < columns; column += patch_columns) {
+                Patch patch{dvec3(0), dvec3(0)};
+                for (int i = row; i < row + patch_rows; ++i)
+                    for (int j = column; j < column + patch_columns; ++j) {
+                        const double part = solid_angle(above, i);
+                        patch.direction +=
+                            part * direction(0.5 * (height(above, i) + height(above, i + 1)), j + 0.5);
+                        patch.flux += part * cells_[cell(above, i, j)];
+                    }
+                patch.direction = glm::normalize(patch.direction);
+                patches_.push_back(patch);
+            }
+}
+
+dvec3 SkyTable::at(dvec3 unit_direction) const {
+    if (cells_.empty()) return dvec3(0);
+    const bool above = unit_direction.y >= horizon;
+    const double share = (unit_direction.y - horizon) / ((above ? 1 : -1) - horizon);
+    const double y = std::clamp(rows * std::sqrt(std::clamp(share, 0.0, 1.0)) - 0.5, 0.0, rows - 1.0);
+    const double x = columns * (std::atan2(unit_direction.z, unit_direction.x) / (2 * pi) + 1) - 0.5;
+    const int row = std::min(static_cast<int>(y), rows - 2), column = static_cast<int>(x);
+    const double down = y - row, right = x - column;
+    const auto at = [&](int i, int j) { return cells_[cell(above, row + i, (column + j) % columns)]; };
+    return (at(0, 0) * (1 - right) + at(0, 1) * right) * (1 - down) +
+           (at(1, 0) * (1 - right) + at(1, 1) * right) * down;
+}
+
+dvec3 SkyTable::mean() const {
+    dvec3 sum(0);
+    for (const Patch& patch : patches_) sum += patch.flux;
+    return sum / (4 * pi);
+}
+
+}  // namespace tyndall::reference

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <functional>
+#include <glm/glm.hpp>
+#include <vector>
+
+namespace tyndall::reference {
+
+using glm::dvec3;
+
+/// Radiance over all directions, tabulated for quadrature: rows that crowd towards the horizon from above and from
+/// below, since a sky has an edge there. Empty: black.
+class SkyTable {
+  public:
+    SkyTable() = default;
+    explicit SkyTable(const std::function<dvec3(dvec3 unit_direction)>& radiance);
+
+    /// Bilinear, with the edge at the horizon kept.
+    [[nodiscard]] dvec3 at(dvec3 unit_direction) const;
+    /// Over the sphere.
+    [[nodiscard]] dvec3 mean() const;
+
+    /// A part of the sphere small enough for smooth lobes.
+    struct Patch {
+        dvec3 direction;  ///< unit, the middle
+        dvec3 flux;       ///< integral of the radiance over its solid angle
+    };
+    [[nodiscard]] const std::vector<Patch>& patches() const { return patches_; }
+
+  private:
+    std::vector<dvec3>
+        cells_;  ///< [below, above the horizon][row from the horizon][azimuth], radiance at the middle
+    std::vector<Patch> patches_;
+};
+
+}  // namespace tyndall::reference
