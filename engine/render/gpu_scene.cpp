@@ -109,6 +109,7 @@ void GpuScene::upload_materials(const Scene& scene) {
             .emissive_alpha_cutoff = glm::vec4(from.emissive, from.alpha_mask ? from.alpha_cutoff : -1.0f),
             .metallic_roughness_normal_occlusion =
                 glm::vec4(from.metallic, from.roughness, from.normal_scale, from.occlusion_strength),
+            .dielectric_f0 = from.dielectric_f0,
             .alpha_mask = from.alpha_mask,
             .alpha_blend = from.alpha_blend,
             .double_sided = from.double_sided,

@@ -64,6 +64,35 @@ class Pictures {
     std::vector<int> images_;  ///< of each picture, the file's image
 };
 
+std::vector<double> numbers(const tinygltf::Value& array) {
+    std::vector<double> values(array.ArrayLen());
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] = array.Get(i).GetNumberAsDouble();
+    return values;
+}
+
+/// Material::dielectric_f0.
+float load_dielectric_f0(const GltfFile& file, const tinygltf::Material& from, const std::string& what) {
+    double ior = 1.5, factor = 1, color = 1;
+    constexpr const char *ior_name = "KHR_materials_ior", *specular_name = "KHR_materials_specular";
+    if (const auto* value = file.extension(from, ior_name, "ior")) {
+        ior = file.number(value->GetNumberAsDouble(), what + ": ior", 0);
+        if (ior > 0 && ior < 1) file.fail("{}: ior {} given, 0 or a number from 1 on expected", what, ior);
+    }
+    if (const auto* value = file.extension(from, specular_name, "specularFactor"))
+        factor = file.number(value->GetNumberAsDouble(), what + ": specularFactor", 0, 1);
+    if (const auto* value = file.extension(from, specular_name, "specularColorFactor")) {
+        const glm::vec3 rgb = file.vector<3>(numbers(*value), what + ": specularColorFactor", 0);
+        color = std::max({rgb.r, rgb.g, rgb.b});
+        if (rgb != glm::vec3(rgb.r))
+            file.skip("{}: specularColorFactor is taken as grey, its largest channel", what);
+    }
+    for (const char* texture : {"specularTexture", "specularColorTexture"})
+        if (file.extension(from, specular_name, texture) != nullptr)
+            file.skip("{}: {} is not supported", what, texture);
+    const double amplitude = (ior - 1) / (ior + 1);
+    return static_cast<float>(std::min(amplitude * amplitude * factor * color, 1.0));
+}
+
 Material load_material(const GltfFile& file, const tinygltf::Material& from, Pictures& pictures,
                        const std::string& what) {
     const tinygltf::PbrMetallicRoughness& pbr = from.pbrMetallicRoughness;
@@ -72,6 +101,7 @@ Material load_material(const GltfFile& file, const tinygltf::Material& from, Pic
     to.base_color = file.vector<4>(pbr.baseColorFactor, what + ": baseColorFactor", 0);
     to.metallic = file.number(pbr.metallicFactor, what + ": metallicFactor", 0, 1);
     to.roughness = file.number(pbr.roughnessFactor, what + ": roughnessFactor", 0, 1);
+    to.dielectric_f0 = load_dielectric_f0(file, from, what);
     to.emissive = file.vector<3>(from.emissiveFactor, what + ": emissiveFactor", 0);
     if (const auto* strength = file.extension(from, "KHR_materials_emissive_strength", "emissiveStrength"))
         to.emissive *= file.number(strength->GetNumberAsDouble(), what + ": emissiveStrength", 0);

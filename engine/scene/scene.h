@@ -42,6 +42,10 @@ struct Material {
     std::string name;
     glm::vec4 base_color{1};
     float metallic = 1, roughness = 1;
+    /// Reflectance at normal incidence where not metal, 0..1: KHR_materials_ior's ((ior - 1) / (ior + 1))², times
+    /// KHR_materials_specular's factor and the largest channel of its colour factor. Below 2% the whole specular
+    /// lobe fades out (shaders/lib/brdf.glsl): 0 is a Lambert surface.
+    float dielectric_f0 = 0.04f;
     glm::vec3 emissive{0};  ///< luminance in cd/m²: emissiveFactor * KHR_materials_emissive_strength
     float normal_scale = 1, occlusion_strength = 1;
     int base_color_picture = -1, metallic_roughness_picture = -1, normal_picture = -1, occlusion_picture = -1,

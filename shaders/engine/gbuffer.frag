@@ -1,4 +1,5 @@
 // glTF 2.0 metallic-roughness material to the G-buffer.
+#include "shaders/lib/brdf.glsl"
 #include "shaders/lib/octahedral.glsl"
 
 layout(location = 0) in vec3 world_normal;
@@ -8,7 +9,7 @@ layout(location = 3) flat in float handedness;
 
 layout(location = 0) out vec4 out_albedo;
 layout(location = 1) out vec2 out_normal;
-layout(location = 2) out vec4 out_material;  // roughness, metallic, occlusion
+layout(location = 2) out vec4 out_material;  // roughness, metallic, occlusion, dielectric f0 / BRDF_F0_STORED
 layout(location = 3) out vec4 out_emissive;  // cd/m²
 
 layout(binding = 0) uniform sampler2D base_color_texture;
@@ -20,6 +21,7 @@ layout(binding = 4) uniform sampler2D emissive_texture;
 uniform vec4 base_color_factor;
 uniform vec4 emissive_alpha_cutoff;
 uniform vec4 metallic_roughness_normal_occlusion;
+uniform float dielectric_f0;
 
 void main() {
     vec4 base_color = texture(base_color_texture, uv) * base_color_factor;
@@ -46,6 +48,6 @@ void main() {
 
     out_albedo = vec4(base_color.rgb, 1.0);
     out_normal = octahedral_encode(side * n);
-    out_material = vec4(roughness_metallic, occlusion, 0.0);
+    out_material = vec4(roughness_metallic, occlusion, dielectric_f0 / BRDF_F0_STORED);
     out_emissive = vec4(min(emissive, vec3(65000.0)), 0.0);
 }

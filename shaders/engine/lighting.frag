@@ -26,13 +26,13 @@ struct Surface {
     vec3 world, normal, to_eye;
     float view_depth;
     vec3 base_color;
-    float roughness, metallic, occlusion;
+    float roughness, metallic, occlusion, dielectric_f0;
 };
 
 Surface surface_at(ivec2 pixel) {
     float depth = texelFetch(depth_texture, pixel, 0).r;
     vec4 world = frame.inverse_view_projection * vec4(uv * 2.0 - 1.0, depth, 1.0);
-    vec3 material = texelFetch(material_texture, pixel, 0).rgb;
+    vec4 material = texelFetch(material_texture, pixel, 0);
     Surface s;
     s.world = world.xyz / world.w;
     s.normal = octahedral_decode(texelFetch(normal_texture, pixel, 0).rg);
@@ -42,11 +42,13 @@ Surface surface_at(ivec2 pixel) {
     s.roughness = material.r;
     s.metallic = material.g;
     s.occlusion = material.b;
+    s.dielectric_f0 = material.a * BRDF_F0_STORED;
     return s;
 }
 
 vec3 reflected(Surface s, vec3 to_light) {
-    return brdf_metallic_roughness(s.base_color, s.metallic, s.roughness, s.normal, s.to_eye, to_light) *
+    return brdf_metallic_roughness(s.base_color, s.metallic, s.roughness, s.dielectric_f0, s.normal, s.to_eye,
+                                   to_light) *
            max(dot(s.normal, to_light), 0.0);
 }
 
@@ -96,9 +98,9 @@ vec3 lamp_light(Surface s) {
 // The mip that blurs the sky about as much as the lobe: with a box filter each level doubles the angle a texel spans.
 vec3 ambient_light(Surface s) {
     float n_dot_v = min(abs(dot(s.normal, s.to_eye)), 1.0);
-    vec3 f0 = mix(vec3(BRDF_DIELECTRIC_F0), s.base_color, s.metallic);
+    vec3 f0 = mix(vec3(s.dielectric_f0), s.base_color, s.metallic);
     vec2 scale = specular_albedo_scale(s.roughness, n_dot_v);
-    vec3 specular = f0 * scale.x + scale.y;
+    vec3 specular = f0 * scale.x + brdf_f90(s.dielectric_f0, s.metallic) * scale.y;
     vec3 diffuse = (1.0 - specular) * (1.0 - s.metallic) * s.base_color;
     float levels = float(textureQueryLevels(sky) - 1);
     float level = levels * sqrt(s.roughness) * 0.9;

@@ -9,19 +9,26 @@ const float BRDF_PI = 3.14159265358979f;
 // Smaller perceptual roughnesses are taken as this: a mirror would show a point light as nothing or as infinity.
 const float BRDF_MIN_ROUGHNESS = 0.045f;
 
-// Reflectance at normal incidence of a dielectric with index of refraction 1.5.
-const float BRDF_DIELECTRIC_F0 = 0.04f;
+// A dielectric's reflectance at normal incidence (f0; 0.04 for the index of refraction 1.5) is stored in 8 bits as a
+// part of this: 0.04 is 51/255 of it, and greater ones, of indices above 2.6, are drawn as this.
+const float BRDF_F0_STORED = 0.2f;
 
 float brdf_alpha(float roughness) {
     float r = clamp(roughness, BRDF_MIN_ROUGHNESS, 1.0f);
     return r * r;
 }
 
-// Schlick 1994: F0 at v = h, 1 at grazing incidence.
-vec3 fresnel_schlick(vec3 f0, float v_dot_h) {
+// Reflectance at grazing incidence: 1, but for dielectrics that reflect less than 2% head-on, which no matter does. There
+// the whole lobe fades out with f0 (Lagarde and de Rousiers 2014, 4.7.2), so that f0 = 0 is a Lambert surface.
+float brdf_f90(float dielectric_f0, float metallic) {
+    return mix(clamp(50.0f * dielectric_f0, 0.0f, 1.0f), 1.0f, metallic);
+}
+
+// Schlick 1994: f0 at v = h, f90 at grazing incidence.
+vec3 fresnel_schlick(vec3 f0, float f90, float v_dot_h) {
     float m = clamp(1.0f - v_dot_h, 0.0f, 1.0f);
     float m2 = m * m;
-    return f0 + (vec3(1.0f) - f0) * (m2 * m2 * m);
+    return f0 + (vec3(f90) - f0) * (m2 * m2 * m);
 }
 
 // Trowbridge and Reitz 1975 (GGX): the distribution of microfacet normals, int D (n.h) dh = 1.
@@ -45,7 +52,8 @@ float visibility_smith(float n_dot_l, float n_dot_v, float alpha) {
 // part does not know how much the specular one took in all: a white dielectric seen at cos 0.05 reflects 1.03 times
 // what it receives at roughness 0.8, 1.7 times at 0.05; metals, and anything seen from above 45 degrees, never more
 // than 1.
-vec3 brdf_metallic_roughness(vec3 base_color, float metallic, float roughness, vec3 n, vec3 v, vec3 l) {
+vec3 brdf_metallic_roughness(vec3 base_color, float metallic, float roughness, float dielectric_f0, vec3 n, vec3 v,
+                             vec3 l) {
     float n_dot_l = dot(n, l);
     if (n_dot_l <= 0.0f) {
         return vec3(0.0f);
@@ -53,14 +61,14 @@ vec3 brdf_metallic_roughness(vec3 base_color, float metallic, float roughness, v
     vec3 h = normalize(l + v);
     float alpha = brdf_alpha(roughness);
     float n_dot_v = max(abs(dot(n, v)), 1.0e-4f);
-    vec3 f0 = mix(vec3(BRDF_DIELECTRIC_F0), base_color, metallic);
-    vec3 fresnel = fresnel_schlick(f0, dot(v, h));
+    vec3 f0 = mix(vec3(dielectric_f0), base_color, metallic);
+    vec3 fresnel = fresnel_schlick(f0, brdf_f90(dielectric_f0, metallic), dot(v, h));
     vec3 diffuse = (1.0f - fresnel) * base_color * ((1.0f - metallic) / BRDF_PI);
     float specular = distribution_ggx(clamp(dot(n, h), 0.0f, 1.0f), alpha) * visibility_smith(n_dot_l, n_dot_v, alpha);
     return diffuse + fresnel * specular;
 }
 
-// Directional albedo of the specular lobe, int f_specular (n.l) dl = f0 * x + y: the split sum of Karis 2013 ("Real
+// Directional albedo of the specular lobe, int f_specular (n.l) dl = f0 * x + f90 * y: the split sum of Karis 2013 ("Real
 // Shading in Unreal Engine 4"), fitted to this file's lobe for n.v >= 1/8; maximal errors of x + y 0.045, of y 0.025.
 vec2 specular_albedo_scale(float roughness, float n_dot_v) {
     float r = roughness;

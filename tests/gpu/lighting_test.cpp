@@ -131,6 +131,20 @@ TEST_F(Lighting, EmissionIsTheRadianceOfTheMaterial) {
     for (int c = 0; c < 3; ++c) EXPECT_EQ(image.at(32, 32)[c], glm::vec3(120, 60, 30)[c]);
 }
 
+TEST_F(Lighting, ASurfaceWithoutReflectanceIsLambert) {
+    const int material = builder_.material(glm::vec3(0.5f), 0.3f);
+    builder_.scene.materials[static_cast<std::size_t>(material)].dielectric_f0 = 0;
+    builder_.ground({0, 0, 0}, 20, material);
+    builder_.point({0, 3, 0}, glm::vec3(100), 50);
+    expect_ground(
+        draw(),
+        [&](glm::dvec3 p, glm::dvec3) {
+            const double d = glm::distance(glm::dvec3(0, 3, 0), p);
+            return 100 / (d * d) * (1 - std::pow(d / 50, 4)) * (3 / d) * 0.5 / pi;
+        },
+        0.01);
+}
+
 TEST_F(Lighting, AnAbsorbingMediumDimsBothLegs) {
     builder_.ground({0, 0, 0}, 20);
     builder_.point({0, 3, 0}, glm::vec3(100), 50);

@@ -30,6 +30,7 @@ void bind_material(const gl::Program& shader, const GpuScene::GpuMaterial& mater
     shader.set("base_color_factor", material.base_color_factor);
     shader.set("emissive_alpha_cutoff", material.emissive_alpha_cutoff);
     shader.set("metallic_roughness_normal_occlusion", material.metallic_roughness_normal_occlusion);
+    shader.set("dielectric_f0", material.dielectric_f0);
     shader.use();
 }
 

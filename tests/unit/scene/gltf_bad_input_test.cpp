@@ -192,6 +192,10 @@ TEST_F(GltfBadInput, EveryDamagedPartIsNamed) {
         {set("/materials/0/emissiveFactor", {1e39, 0, 0}), "emissiveFactor"},
         {set("/materials/0/extensions", {{"KHR_materials_emissive_strength", {{"emissiveStrength", -1}}}}),
          "emissiveStrength"},
+        {set("/materials/0/extensions", {{"KHR_materials_ior", {{"ior", 0.5}}}}), "ior"},
+        {set("/materials/0/extensions", {{"KHR_materials_specular", {{"specularFactor", 2}}}}), "specularFactor"},
+        {set("/materials/0/extensions", {{"KHR_materials_specular", {{"specularColorFactor", {1, 1}}}}}),
+         "specularColorFactor"},
         {set("/materials/0/alphaMode", "GLASS"), "alphaMode"},
         // nodes
         {set("/nodes/2/children", json::array({1})), "cycle"},

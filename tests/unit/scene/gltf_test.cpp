@@ -181,34 +181,40 @@ TEST_F(Gltf, MaterialsWithAllTheirParts) {
         {{"bufferView", grey}}, {{"bufferView", red}, {"name", "red"}}, {{"uri", "not-used.png"}, {"name", "x"}}};
     b.doc["images"].erase(2);
     b.doc["textures"] = {{{"source", 1}}, {{"source", 0}}};
-    b.doc["materials"] = {{{"name", "plain"}},
-                          {{"name", "full"},
-                           {"pbrMetallicRoughness",
-                            {{"baseColorFactor", {0.1, 0.2, 0.3, 0.4}},
-                             {"metallicFactor", 0.5},
-                             {"roughnessFactor", 0.25},
-                             {"baseColorTexture", {{"index", 0}}},
-                             {"metallicRoughnessTexture", {{"index", 1}}}}},
-                           {"normalTexture", {{"index", 1}, {"scale", 0.75}}},
-                           {"occlusionTexture", {{"index", 1}, {"strength", 0.5}}},
-                           {"emissiveTexture", {{"index", 0}}},
-                           {"emissiveFactor", {0.5, 1, 0}},
-                           {"alphaMode", "MASK"},
-                           {"alphaCutoff", 0.3},
-                           {"doubleSided", true},
-                           {"extensions", {{"KHR_materials_emissive_strength", {{"emissiveStrength", 200}}}}}},
-                          {{"alphaMode", "BLEND"}}};
+    b.doc["materials"] = {
+        {{"name", "plain"}},
+        {{"name", "full"},
+         {"pbrMetallicRoughness",
+          {{"baseColorFactor", {0.1, 0.2, 0.3, 0.4}},
+           {"metallicFactor", 0.5},
+           {"roughnessFactor", 0.25},
+           {"baseColorTexture", {{"index", 0}}},
+           {"metallicRoughnessTexture", {{"index", 1}}}}},
+         {"normalTexture", {{"index", 1}, {"scale", 0.75}}},
+         {"occlusionTexture", {{"index", 1}, {"strength", 0.5}}},
+         {"emissiveTexture", {{"index", 0}}},
+         {"emissiveFactor", {0.5, 1, 0}},
+         {"alphaMode", "MASK"},
+         {"alphaCutoff", 0.3},
+         {"doubleSided", true},
+         {"extensions",
+          {{"KHR_materials_emissive_strength", {{"emissiveStrength", 200}}},
+           {"KHR_materials_ior", {{"ior", 3}}},
+           {"KHR_materials_specular", {{"specularFactor", 0.5}, {"specularColorFactor", {0.25, 0.5, 0.125}}}}}}},
+        {{"alphaMode", "BLEND"}}};
     const Scene scene = load(b);
     ASSERT_EQ(scene.materials.size(), 3u);
     const Material& plain = scene.materials[0];
     EXPECT_EQ(plain.base_color, glm::vec4(1));
     EXPECT_EQ(plain.base_color_picture, -1);
+    EXPECT_EQ(plain.dielectric_f0, 0.04f);
     EXPECT_FALSE(plain.alpha_mask || plain.alpha_blend || plain.double_sided);
     const Material& full = scene.materials[1];
     EXPECT_EQ(full.base_color, glm::vec4(0.1f, 0.2f, 0.3f, 0.4f));
     EXPECT_EQ(full.metallic, 0.5f);
     EXPECT_EQ(full.roughness, 0.25f);
     EXPECT_EQ(full.emissive, glm::vec3(100, 200, 0));
+    EXPECT_EQ(full.dielectric_f0, 0.0625f);  // ((3 - 1) / (3 + 1))² * 0.5 * 0.5
     EXPECT_EQ(full.normal_scale, 0.75f);
     EXPECT_EQ(full.occlusion_strength, 0.5f);
     EXPECT_TRUE(full.alpha_mask && full.double_sided);

@@ -45,10 +45,12 @@ double hemisphere(F f, vec3 v, double alpha) {
     return sum / (n * n);
 }
 
-double albedo(float base, float metallic, float roughness, double n_dot_v) {
+constexpr float glass = 0.04f;  // f0 of index 1.5
+
+double albedo(float base, float metallic, float roughness, double n_dot_v, float f0 = glass) {
     const vec3 v = direction(n_dot_v, 0.3);
     const auto reflected = [&](vec3 l) {
-        return double{brdf_metallic_roughness(vec3(base), metallic, roughness, up, v, l).x} * l.z;
+        return double{brdf_metallic_roughness(vec3(base), metallic, roughness, f0, up, v, l).x} * l.z;
     };
     return hemisphere(reflected, v, brdf_alpha(roughness));
 }
@@ -71,6 +73,31 @@ TEST(Brdf, BlackDielectricSeenHeadOnReflectsFourPercent) {
     EXPECT_NEAR(albedo(0, 0, 0.1f, 1.0), 0.04, 0.001);
 }
 
+TEST(Brdf, BlackDielectricSeenHeadOnReflectsItsF0) {
+    for (const float f0 : {0.02f, 0.08f, 0.17f}) EXPECT_NEAR(albedo(0, 0, 0.1f, 1.0, f0), f0, 0.025f * f0) << f0;
+}
+
+TEST(Brdf, WithoutReflectanceItIsLambert) {
+    std::mt19937 random(11);
+    std::uniform_real_distribution<float> unit(0.01f, 1.0f);
+    for (int i = 0; i < 200; ++i) {
+        const vec3 v = direction(unit(random), 6 * unit(random)), l = direction(unit(random), 6 * unit(random));
+        const vec3 f = brdf_metallic_roughness(vec3(0.25f, 0.5f, 1), 0, unit(random), 0, up, v, l);
+        for (int c = 0; c < 3; ++c) EXPECT_NEAR(f[c], std::ldexp(1 / pi, c - 2), 1e-6) << i;
+        // A metal does not know of it.
+        EXPECT_EQ(brdf_metallic_roughness(vec3(0.5f), 1, 0.3f, 0, up, v, l),
+                  brdf_metallic_roughness(vec3(0.5f), 1, 0.3f, glass, up, v, l));
+    }
+}
+
+TEST(Brdf, TheLobeFadesOutBelowTwoPercent) {
+    EXPECT_EQ(brdf_f90(0.04f, 0), 1);
+    EXPECT_EQ(brdf_f90(0.02f, 0), 1);
+    EXPECT_FLOAT_EQ(brdf_f90(0.005f, 0), 0.25f);
+    EXPECT_EQ(brdf_f90(0, 0), 0);
+    EXPECT_EQ(brdf_f90(0, 1), 1);
+}
+
 TEST(Brdf, RoughDielectricIsNearlyLambertian) {
     EXPECT_NEAR(albedo(0.5f, 0, 1, 1.0), 0.5, 0.03);
 }
@@ -82,8 +109,8 @@ TEST(Brdf, IsReciprocal) {
         const vec3 a = direction(unit(random), 6 * unit(random)), b = direction(unit(random), 6 * unit(random));
         const float metallic = unit(random), roughness = unit(random);
         const vec3 base(unit(random), unit(random), unit(random));
-        const vec3 ab = brdf_metallic_roughness(base, metallic, roughness, up, a, b);
-        const vec3 ba = brdf_metallic_roughness(base, metallic, roughness, up, b, a);
+        const vec3 ab = brdf_metallic_roughness(base, metallic, roughness, glass * roughness, up, a, b);
+        const vec3 ba = brdf_metallic_roughness(base, metallic, roughness, glass * roughness, up, b, a);
         for (int c = 0; c < 3; ++c) EXPECT_NEAR(ab[c], ba[c], 1e-4f * (1 + ab[c]));
     }
 }
@@ -111,7 +138,7 @@ TEST(Brdf, SpecularAlbedoFitFollowsTheIntegral) {
             const float alpha = brdf_alpha(roughness);
             const auto lobe = [&](vec3 l, float f0) {
                 const vec3 h = normalize(l + v);
-                return double{fresnel_schlick(vec3(f0), dot(v, h)).x * distribution_ggx(h.z, alpha) *
+                return double{fresnel_schlick(vec3(f0), 1, dot(v, h)).x * distribution_ggx(h.z, alpha) *
                               visibility_smith(l.z, v.z, alpha) * l.z};
             };
             const vec2 fit = specular_albedo_scale(roughness, v.z);
@@ -124,9 +151,9 @@ TEST(Brdf, SpecularAlbedoFitFollowsTheIntegral) {
 
 TEST(Brdf, NothingFromBelowTheHorizonAndFiniteAtGrazing) {
     const vec3 below = direction(-0.1, 1), grazing = direction(1e-4, 2), behind = direction(-0.2, 0.5);
-    EXPECT_EQ(brdf_metallic_roughness(vec3(1), 0, 0.5f, up, up, below), vec3(0));
+    EXPECT_EQ(brdf_metallic_roughness(vec3(1), 0, 0.5f, glass, up, up, below), vec3(0));
     for (const float roughness : {0.0f, 1.0f}) {
-        const vec3 f = brdf_metallic_roughness(vec3(1), 1, roughness, up, behind, grazing);
+        const vec3 f = brdf_metallic_roughness(vec3(1), 1, roughness, glass, up, behind, grazing);
         EXPECT_TRUE(std::isfinite(f.x) && f.x >= 0) << f.x;
     }
 }
