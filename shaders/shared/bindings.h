@@ -17,6 +17,7 @@
 #define BINDING_LOCAL_MEDIA 7
 #define BINDING_DITHER 8
 #define BINDING_MEDIA_TILES 9
+#define BINDING_UNFINISHED 10
 #define BINDING_WORK 15
 
 // Texture units of the lighting contract; passes use units 0-7 for their own textures.

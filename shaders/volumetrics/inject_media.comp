@@ -1,16 +1,15 @@
 // Fills the froxel volume with the local media: sums of sigma_s, sigma_t and emission at each froxel's centre. The
 // anisotropy is stored as its product with the mean sigma_s, so that filtering averages it by scattering.
 #include "shaders/lib/froxel.glsl"
-#include "shaders/lib/media_shape.glsl"
 #include "shaders/lib/pack.glsl"
 #include "shaders/lib/work.glsl"
 #include "shaders/volumetrics/data.glsl"
+#include "shaders/volumetrics/local_media.glsl"
 #include "shaders/volumetrics/ray.glsl"
 
 // One group is one tile that holds media, see modules/volumetrics/src/froxel_tiles.h. The volume was cleared before.
 layout(local_size_x = 16, local_size_y = 16) in;
 
-layout(std430, binding = BINDING_LOCAL_MEDIA) readonly buffer LocalMediaBuffer { LocalMedium local_media[]; };
 // Per tile: x | y << 10 | z << 20, then a bit for each medium that may touch it, in words of 32.
 layout(std430, binding = BINDING_MEDIA_TILES) readonly buffer MediaTileBuffer { uint media_tiles[]; };
 uniform uint tile_count;
@@ -20,18 +19,6 @@ layout(rgba16f, binding = 1) writeonly uniform image3D froxel_extinction;
 #if EMISSION
 layout(rgba16f, binding = 2) writeonly uniform image3D froxel_emission;
 #endif
-
-float local_density(LocalMedium medium, vec3 point) {
-    vec3 p = (medium.world_to_shape * vec4(point, 1.0)).xyz;
-    vec3 extent = medium.extent_softness.xyz;
-    float softness = medium.extent_softness.w;
-    float density = int(medium.sigma_a_shape.w) == SHAPE_BOX ? box_density(p, extent, softness)
-                                                             : ellipsoid_density(p, extent, softness);
-    if (density <= 0.0) return 0.0;
-    if (medium.emission_noise.w > 0.0)
-        density *= media_noise(p, medium.noise_height.x, medium.emission_noise.w, uint(medium.noise_height.y));
-    return density * media_height(point.y, medium.noise_height.z, medium.noise_height.w);
-}
 
 void main() {
     ivec3 size = imageSize(froxel_scattering);

@@ -108,6 +108,54 @@ Reach lamp_reach(Ray ray, Segment segment, GpuLight light, LampRay lamp) {
     return reach;
 }
 
+// A walk over the lamps of a segment. It may pass many light lists: looking up one of them would lose the lamps of the
+// others. So all are read, and a lamp is found where its nearest lit point lies, which is listed if any part of the
+// segment is lit: once, whatever lists repeat it.
+struct LampWalk {
+    float begin;  // of the slice, along the ray
+    float end;
+    int slice;
+    uint next;  // entry of the slice's list
+    uint list_end;
+};
+
+struct FoundLamp {
+    uint index;
+    LampRay lamp;
+    Reach reach;
+};
+
+LampWalk lamp_walk(Ray ray, Segment segment) {
+    return LampWalk(segment.begin, segment.begin, light_slice(segment.begin * ray.forward_cosine) - 1, 0u, 0u);
+}
+
+void next_slice(Ray ray, Segment segment, inout LampWalk walk) {
+    ++walk.slice;
+    walk.begin = walk.end;
+    walk.end = clamp(light_slice_end(walk.slice) / ray.forward_cosine, walk.begin, segment.end);
+    ClusterRange range = lights_in_slice(ray.uv, walk.slice);
+    walk.next = range.offset;
+    walk.list_end = range.offset + range.count;
+}
+
+// Rasterisers that run all lanes in step pay what is done with a lamp only for the lamps found.
+bool next_lamp(Ray ray, Segment segment, inout LampWalk walk, out FoundLamp found) {
+    while (walk.next < walk.list_end || walk.end < segment.end) {
+        if (walk.next == walk.list_end) {
+            next_slice(ray, segment, walk);
+            continue;
+        }
+        found.index = light_index(walk.next++);
+        GpuLight light = light_at(found.index);
+        found.lamp = lamp_ray(ray.origin, ray.direction, light.position_range.xyz);
+        found.reach = lamp_reach(ray, segment, light, found.lamp);
+        bool here = found.reach.nearest >= walk.begin &&
+                    (found.reach.nearest < walk.end || walk.end >= segment.end);
+        if (here && found.reach.begin < found.reach.end) return true;
+    }
+    return false;
+}
+
 // What reaches the segment's front of the light a lamp sends to a point of it, apart from inverse square and phase.
 vec3 lamp_transport(Ray ray, Segment segment, GpuLight light, float t) {
     vec3 point = ray.origin + ray.direction * t;
@@ -126,8 +174,11 @@ vec3 lamp_transport(Ray ray, Segment segment, GpuLight light, float t) {
     return transport;
 }
 
-vec3 lamp_over_segment(Ray ray, Segment segment, uint index, GpuLight light, LampRay lamp, Reach reach) {
+vec3 lamp_over_segment(Ray ray, Segment segment, FoundLamp found) {
     count_work(WORK_LIGHT_EVALUATIONS, 1u);
+    GpuLight light = light_at(found.index);
+    LampRay lamp = found.lamp;
+    Reach reach = found.reach;
     float radius = light.intensity_radius.w;
     LampSegment rule = lamp_segment(lamp, reach.begin, reach.end, radius, lamp_inverse_range(light));
     vec4 cos_theta = lamp_segment_cos_theta(rule, lamp);
@@ -141,46 +192,16 @@ vec3 lamp_over_segment(Ray ray, Segment segment, uint index, GpuLight light, Lam
     float span = reach.end - reach.begin;
     LampIntegral integral = lamp_integral(a, a + span, span, lamp.h, radius);
     float advance = clamp(lamp_advance(integral, segment.offset * integral.total), 0.0, span);
-    float visible = lamp_visibility(index, light, ray.origin + ray.direction * (reach.begin + advance));
+    float visible = lamp_visibility(found.index, light, ray.origin + ray.direction * (reach.begin + advance));
     return visible * light.intensity_radius.rgb * sum;
 }
 
-// Radiance that all lamps scatter to the segment's front. A segment may pass many light lists: looking up one of them
-// would lose the lamps of the others. So all are read, and a lamp is integrated over the whole segment where its
-// nearest lit point lies, which is listed if any part of the segment is lit: once, whatever lists repeat it.
-// The inner loop finds the next such lamp; rasterisers that run all lanes in step pay the integral only for those.
+// Radiance that all lamps scatter to the segment's front.
 vec3 lamps_over_segment(Ray ray, Segment segment) {
     vec3 sum = vec3(0.0);
-    float begin = segment.begin;
-    float end = segment.begin;
-    int slice = light_slice(begin * ray.forward_cosine) - 1;
-    uint next = 0u;
-    uint list_end = 0u;
-    while (true) {
-        uint index = 0u;
-        LampRay lamp;
-        Reach reach;
-        bool found = false;
-        while (!found && (next < list_end || end < segment.end)) {
-            if (next == list_end) {
-                ++slice;
-                begin = end;
-                end = clamp(light_slice_end(slice) / ray.forward_cosine, begin, segment.end);
-                ClusterRange range = lights_in_slice(ray.uv, slice);
-                next = range.offset;
-                list_end = range.offset + range.count;
-            } else {
-                index = light_index(next++);
-                GpuLight light = light_at(index);
-                lamp = lamp_ray(ray.origin, ray.direction, light.position_range.xyz);
-                reach = lamp_reach(ray, segment, light, lamp);
-                bool here = reach.nearest >= begin && (reach.nearest < end || end >= segment.end);
-                found = here && reach.begin < reach.end;
-            }
-        }
-        if (!found) break;
-        sum += lamp_over_segment(ray, segment, index, light_at(index), lamp, reach);
-    }
+    LampWalk walk = lamp_walk(ray, segment);
+    FoundLamp found;
+    while (next_lamp(ray, segment, walk, found)) sum += lamp_over_segment(ray, segment, found);
     return sum;
 }
 #endif

@@ -4,14 +4,9 @@
 // Global media, transmittances and the inverse square of lamps are integrated in closed form; only local media and
 // visibility are sampled, once a segment, at an offset that differs from pixel to pixel.
 #include "shaders/lib/froxel.glsl"
-#include "shaders/lib/phase.glsl"
-#include "shaders/lib/work.glsl"
-#include "shaders/interface/lights.glsl"
 #include "shaders/interface/shadows.glsl"
-#include "shaders/volumetrics/extinction.glsl"
-#include "shaders/volumetrics/light_transmittance.glsl"
 #include "shaders/volumetrics/lamps.glsl"
-#include "shaders/volumetrics/ray.glsl"
+#include "shaders/volumetrics/segment.glsl"
 #include "shaders/lib/pack.glsl"
 
 layout(binding = 0) uniform sampler2D depth_texture;
@@ -32,11 +27,6 @@ layout(location = 1) out vec4 out_transmittance;
 
 // Half of the smallest half-float number: a transmittance of this is stored as 0, and nothing behind it shows.
 const float OPAQUE = 2.98e-8;
-
-struct March {
-    vec3 radiance;
-    Extinction transmittance;
-};
 
 float dither_offset() {
     uint side = volumetrics.counts.w;
@@ -67,84 +57,33 @@ vec3 add_local_media(Ray ray, float t, float path_length, inout Medium m, inout 
     return sigma_t;
 }
 
-#if HAS_SUN
-// The sun over a segment, unshadowed. Along the ray both the optical depth from the segment's front and that towards the
-// sun are affine in the density of a height medium, so the sum of the two is taken to run linearly from the front,
-// where it is `front`, to front + x: exact for one height medium, and for homogeneous media.
-struct SunSegment {
-    float x;
-    Extinction effective_length;  // int exp(-sum) dt, m
-};
-
-SunSegment sun_segment(Extinction depth, Extinction front, Extinction back, float path_length) {
-    Extinction x = depth + back - front;
-    Extinction low = min(front, depth + back);
-    Extinction size = abs(x);
-    SunSegment s;
-    s.x = average(x);
-    s.effective_length = path_length * exp(-low) * mean_transmittance(size, exp(-size));
-    return s;
-}
-#endif
-
-// One segment [a, b]. Beyond the march (tail) nothing is sampled: global media under unshadowed sun.
-void march_segment(Ray ray, float a, float b, float offset, bool tail, inout Extinction sun_front, inout March march) {
+void march_segment(Ray ray, float a, float b, float offset, inout Extinction sun_front, inout March march) {
     float path_length = b - a;
-    float y = ray.origin.y + ray.direction.y * a;
-    Medium m = global_medium(y, ray.direction.y, path_length);
+    Medium m = global_medium(ray.origin.y + ray.direction.y * a, ray.direction.y, path_length);
     count_work(WORK_MEDIUM_SAMPLES, 1u);
     vec3 constant_sigma_s = volumetrics.homogeneous_sigma_s.rgb;
     vec3 constant_sigma_t = volumetrics.homogeneous_sigma_t.rgb;
-    if (!tail)
-        constant_sigma_t += add_local_media(ray, a + offset * path_length, path_length, m, constant_sigma_s);
+    constant_sigma_t += add_local_media(ray, a + offset * path_length, path_length, m, constant_sigma_s);
 
-    Extinction depth = to_extinction(m.optical_depth);
-    Extinction transmittance = exp(-depth);
-    Extinction effective_length = path_length * mean_transmittance(depth, transmittance);
-    vec3 gathered = (m.sigma_s * ambient + m.emission) * effective_length;
+    Optics optics = medium_optics(m, path_length);
+    vec3 gathered = (m.sigma_s * ambient + m.emission) * optics.effective_length;
 
 #if HAS_SUN
-    vec3 to_sun = -sun_direction();
-    SunSegment sun;
-#if HEIGHT_MEDIA
-    Extinction sun_back = to_extinction(sun_optical_depth(ray.origin.y + ray.direction.y * b, to_sun));
-    sun = sun_segment(depth, sun_front, sun_back, path_length);
-    sun_front = sun_back;
-#else
-    sun = SunSegment(average(depth), effective_length);
-#endif
-    float visible = 1.0;
-    if (!tail) {
-        float t = a + path_length * equal_transmittance(offset, sun.x);
-        count_work(WORK_SHADOW_LOOKUPS, 1u);
-        visible = sun_visibility(ray.origin + ray.direction * t, t * ray.forward_cosine);
-    }
-    float p = phase(int(volumetrics.options.x), m.anisotropy, dot(to_sun, ray.direction));
-    gathered += sun_illuminance() * (visible * p) * m.sigma_s * sun.effective_length;
+    SunSegment sun = sun_segment(ray, a, b, optics, sun_front);
+    float t = a + path_length * equal_transmittance(offset, sun.x);
+    count_work(WORK_SHADOW_LOOKUPS, 1u);
+    float visible = sun_visibility(ray.origin + ray.direction * t, t * ray.forward_cosine);
+    gathered += visible * sun_scattering(ray, m, sun.effective_length);
 #endif
 
 #if LAMPS == 1
-    if (!tail) gathered += lamps_at(ray, a + offset * path_length, m.anisotropy) * m.sigma_s * effective_length;
+    gathered += lamps_at(ray, a + offset * path_length, m.anisotropy) * m.sigma_s * optics.effective_length;
 #elif LAMPS == 2
-    if (!tail)
-        gathered += lamps_over_segment(ray, Segment(a, b, offset, m.anisotropy, constant_sigma_s, constant_sigma_t));
+    gathered += lamps_over_segment(ray, Segment(a, b, offset, m.anisotropy, constant_sigma_s, constant_sigma_t));
 #endif
 
     march.radiance += march.transmittance * gathered;
-    march.transmittance *= transmittance;
-}
-
-// Global media between the end of the march and the surface, or without end where there is none.
-void march_tail(Ray ray, float begin, float end, bool endless, Extinction sun_front, inout March march) {
-    float y = ray.origin.y + ray.direction.y * begin;
-    // What lies behind an optical depth of 16 cannot be seen: source and sun are taken from what lies before.
-    float thickest = largest(to_extinction(volumetrics.homogeneous_sigma_t.rgb));
-    float visible_end = min(end, begin + 16.0 / max(thickest, 1.0e-30));
-    Extinction before = march.transmittance;
-    march_segment(ray, begin, visible_end, 0.5, true, sun_front, march);
-    vec3 depth = height_optical_depth(y, ray.direction.y, end - begin) +
-                 volumetrics.homogeneous_sigma_t.rgb * (endless ? MAX_OPTICAL_DEPTH : end - begin);
-    march.transmittance = before * exp(-to_extinction(depth));
+    march.transmittance *= optics.transmittance;
 }
 
 void main() {
@@ -166,11 +105,11 @@ void main() {
     uint steps = volumetrics.counts.z;
     for (uint i = 0u; i < steps && largest(march.transmittance) > OPAQUE; ++i) {
         float b = i + 1u == steps ? end : min(a + step_length, end);
-        march_segment(ray, a, b, offset, false, sun_front, march);
+        march_segment(ray, a, b, offset, sun_front, march);
         step_length *= volumetrics.march.z;
         a = b;
     }
-    if (surface > end) march_tail(ray, end, surface, is_background(depth), sun_front, march);
+    if (surface > end) march_tail(ray, end, surface, is_background(depth), ambient, sun_front, march);
 
     out_scattering = round_to_half(vec4(march.radiance, average(march.transmittance)));
 #if CHROMATIC

@@ -76,17 +76,40 @@ void add_global(const Inputs& inputs, FrameMedia& media) {
     media.data.counts.x = static_cast<unsigned>(heights);
 }
 
-void add_local(const Inputs& inputs, const Settings& settings, FrameMedia& media) {
-    const FroxelGrid grid = froxel_grid(inputs, settings);
+void add_local(const LocalMedium& medium, FrameMedia& media) {
+    media.local.push_back(pack_local(medium));
+    media.local_emission |= !is_zero(medium.emission);
+    media.chromatic |= is_coloured(medium.sigma_s + medium.sigma_a);
+}
+
+void add_local_in_view(const Inputs& inputs, const FroxelGrid& grid, FrameMedia& media) {
     for (const LocalMedium& medium : inputs.local) {
         if (does_nothing(medium)) continue;
         const IndexBox box = froxel_bounds(medium, inputs, grid);
         if (box.empty()) continue;
-        media.local.push_back(pack_local(medium));
+        add_local(medium, media);
         media.local_froxels.push_back(box);
-        media.local_emission |= !is_zero(medium.emission);
-        media.chromatic |= is_coloured(medium.sigma_s + medium.sigma_a);
     }
+}
+
+/// All, also those that only attenuate light on its way to another: if any is in view, or a global medium is.
+void add_all_local(const Inputs& inputs, FroxelGrid grid, FrameMedia& media) {
+    grid.farthest = 1e9F;
+    bool seen = media.has_global;
+    for (const LocalMedium& medium : inputs.local) {
+        if (does_nothing(medium)) continue;
+        add_local(medium, media);
+        seen |= !froxel_bounds(medium, inputs, grid).empty();
+    }
+    if (!seen) media.local.clear();
+}
+
+void add_local(const Inputs& inputs, const Settings& settings, FrameMedia& media) {
+    const FroxelGrid grid = froxel_grid(inputs, settings);
+    if (settings.technique == Technique::reference)
+        add_all_local(inputs, grid, media);
+    else
+        add_local_in_view(inputs, grid, media);
     media.data.counts.y = static_cast<unsigned>(media.local.size());
     media.data.options.w = static_cast<unsigned>(grid.distribution);
     media.data.froxel_depths = {grid.nearest, grid.farthest, 0, 0};

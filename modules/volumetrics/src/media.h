@@ -14,11 +14,12 @@ struct IndexBox {
     [[nodiscard]] bool empty() const { return lower.x >= upper.x || lower.y >= upper.y || lower.z >= upper.z; }
 };
 
-/// What one frame's inputs come to: media that do nothing, and local media out of view, are left out.
+/// What one frame's inputs come to: media that do nothing are left out, and so are local media out of view, but for
+/// the technique reference, where they may stand between a light and what is seen.
 struct FrameMedia {
     shared::VolumetricsData data{};
     std::vector<shared::LocalMedium> local;
-    std::vector<IndexBox> local_froxels;  ///< that each local medium may touch
+    std::vector<IndexBox> local_froxels;  ///< that each local medium may touch; none for the reference
     std::size_t live_tiles = 0;           ///< of the froxel volume: entries of live_tiles()
     bool has_global = false;
     bool local_emission = false;

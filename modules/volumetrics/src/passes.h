@@ -17,13 +17,16 @@ struct FroxelMedia {
 struct PassResources {
     ShaderLibrary& shaders;
     gl::Sampler nearest, linear;
-    gl::Buffer uniforms, local_media, media_tiles, dither;
+    gl::Buffer uniforms, local_media, media_tiles, dither, unfinished;
 };
 
 [[nodiscard]] FroxelMedia add_inject_media(PassList& passes, const PassResources& resources, const Inputs& inputs,
                                            const Settings& settings, const FrameMedia& media);
 [[nodiscard]] Outputs add_march(PassList& passes, const PassResources& resources, const Inputs& inputs,
                                 const Settings& settings, const FrameMedia& media, const FroxelMedia& froxels);
+/// Brute force in RGBA32F; `transmittance` is always given.
+[[nodiscard]] Outputs add_reference(PassList& passes, PassResources& resources, const Inputs& inputs,
+                                    const Settings& settings, const FrameMedia& media);
 [[nodiscard]] Outputs add_blur(PassList& passes, const PassResources& resources, const Inputs& inputs,
                                const Settings& settings, const Outputs& source);
 [[nodiscard]] TextureRef add_composite(PassList& passes, const PassResources& resources, const Outputs& outputs,

@@ -14,9 +14,11 @@ namespace {
 constexpr const char* inject_pass = "volumetrics/inject_media";
 constexpr const char* composite_pass = "volumetrics/composite";
 
+constexpr const char* march_pass = "volumetrics/march";
+constexpr const char* blur_passes[] = {"volumetrics/blur_horizontal", "volumetrics/blur_vertical"};
+
 void skip_all(PassList& passes, const std::string& reason) {
-    for (const char* name : {inject_pass, "volumetrics/march", "volumetrics/blur_horizontal",
-                             "volumetrics/blur_vertical", composite_pass})
+    for (const char* name : {inject_pass, march_pass, blur_passes[0], blur_passes[1], composite_pass})
         passes.skip(name, reason);
 }
 
@@ -30,7 +32,8 @@ struct Volumetrics::Impl {
                     .uniforms = {},
                     .local_media = {},
                     .media_tiles = {},
-                    .dither = {}} {}
+                    .dither = {},
+                    .unfinished = {}} {}
 
     PassResources resources;
     FrameMedia media;
@@ -42,6 +45,14 @@ struct Volumetrics::Impl {
         resources.local_media = {};
         resources.media_tiles = {};
         resources.dither = {};
+        resources.unfinished = {};
+    }
+
+    void upload_tiles(const Settings& settings) {
+        const glm::ivec3 froxels{settings.froxels_x, settings.froxels_y, settings.froxels_z};
+        const std::vector<std::uint32_t> tiles = live_tiles(media.local_froxels, froxels);
+        media.live_tiles = tiles.size() / (1 + (media.local_froxels.size() + 31) / 32);
+        resources.media_tiles.assign(std::span<const std::uint32_t>(tiles), "volumetrics media tiles");
     }
 
     void upload(const Settings& settings) {
@@ -51,17 +62,19 @@ struct Volumetrics::Impl {
             resources.linear = gl::Sampler({}, "volumetrics linear");
         }
         resources.uniforms.assign(std::span<const shared::VolumetricsData>(&media.data, 1), "volumetrics uniforms");
-        if (media.local.empty()) {
+        if (media.local.empty())
             resources.local_media = {};
-            resources.media_tiles = {};
-        } else {
-            const glm::ivec3 froxels{settings.froxels_x, settings.froxels_y, settings.froxels_z};
-            const std::vector<std::uint32_t> tiles = live_tiles(media.local_froxels, froxels);
-            media.live_tiles = tiles.size() / (1 + (media.local.size() + 31) / 32);
+        else
             resources.local_media.assign(std::span<const shared::LocalMedium>(media.local),
                                          "volumetrics local media");
-            resources.media_tiles.assign(std::span<const std::uint32_t>(tiles), "volumetrics media tiles");
-        }
+        if (media.local_froxels.empty())
+            resources.media_tiles = {};
+        else
+            upload_tiles(settings);
+        if (settings.technique != Technique::reference)
+            resources.unfinished = {};
+        else if (!resources.unfinished)
+            resources.unfinished = gl::Buffer(16, "volumetrics unfinished lamps");
         const std::tuple key(settings.dither, settings.dither == Dither::none ? 1 : settings.dither_size);
         if (!resources.dither || key != dither_key) {
             const std::vector<float> tile = dither_tile(settings.dither, settings.dither_size);
@@ -90,6 +103,11 @@ Outputs Volumetrics::add_passes(PassList& passes, const Inputs& inputs, const Se
         return {};
     }
     TYNDALL_CHECK(impl_->resources.uniforms);  // prepare came first
+    if (settings.technique == Technique::reference) {
+        for (const char* name : {inject_pass, march_pass, blur_passes[0], blur_passes[1]})
+            passes.skip(name, "technique is reference");
+        return add_reference(passes, impl_->resources, inputs, settings, media);
+    }
     FroxelMedia froxels;
     if (media.local.empty())
         passes.skip(inject_pass, "no local medium in view");
@@ -97,8 +115,7 @@ Outputs Volumetrics::add_passes(PassList& passes, const Inputs& inputs, const Se
         froxels = add_inject_media(passes, impl_->resources, inputs, settings, media);
     Outputs outputs = add_march(passes, impl_->resources, inputs, settings, media, froxels);
     if (settings.blur != Blur::none) return add_blur(passes, impl_->resources, inputs, settings, outputs);
-    passes.skip("volumetrics/blur_horizontal", "blur is none");
-    passes.skip("volumetrics/blur_vertical", "blur is none");
+    for (const char* name : blur_passes) passes.skip(name, "blur is none");
     return outputs;
 }
 
