@@ -7,7 +7,7 @@
 namespace tyndall::bench_scenes {
 
 Scene torture_lamp_at_eye() {
-    Scene scene = empty_scene("torture_lamp_at_eye", 0.0f);
+    Scene scene = empty_scene("torture_lamp_at_eye", 2.0f);
     add_ground(scene, 40.0f);
     Mesh m{"colonnade", {}, mat4(1.0f)};
     for (int i = 0; i < 7; ++i) {
@@ -20,13 +20,13 @@ Scene torture_lamp_at_eye() {
     const vec3 eye(0.1f, 1.6f, 0.0f);
     // Forward scattering, so that the air next to the lamp does not outshine all else.
     add_point(scene, {.position = eye, .candela = 200.0f, .radius = 0.02f});
-    scene.media.push_back(global_medium({0.02f, 0.0f, 0.8f}));
+    scene.media.push_back(global_medium({0.009f, 0.0f, 0.85f}));
     add_view(scene, eye, {-0.1f, 1.5f, -10.0f}, 60.0f);
     return scene;
 }
 
 Scene torture_lamp_behind_wall() {
-    Scene scene = empty_scene("torture_lamp_behind_wall", 2.0f);
+    Scene scene = empty_scene("torture_lamp_behind_wall", 2.5f);
     add_ground(scene, 30.0f);
     Mesh m{"wall", {}, mat4(1.0f)};
     // 2 cm thick, with an upright slit 3 cm wide.
@@ -81,7 +81,7 @@ Scene avenue(const char* name, float exposure, float anisotropy) {
 }  // namespace
 
 Scene torture_forward() {
-    Scene scene = avenue("torture_forward", 7.0f, 0.95f);
+    Scene scene = avenue("torture_forward", 8.3f, 0.95f);
     add_sun(scene, sky_direction(16.0f, 11.0f), 1'000.0f);
     add_spot(scene, {.position = {2.0f, 2.2f, -20.0f}, .candela = 20'000.0f, .color = {0.5f, 0.7f, 1.0f}},
              {0.8f, 1.6f, 0.0f}, 12.0f, 20.0f);
@@ -89,7 +89,7 @@ Scene torture_forward() {
 }
 
 Scene torture_backward() {
-    Scene scene = avenue("torture_backward", 6.0f, -0.95f);
+    Scene scene = avenue("torture_backward", 8.5f, -0.95f);
     add_sun(scene, sky_direction(10.0f, 165.0f), 1'000.0f);
     add_spot(scene, {.position = {1.2f, 1.4f, 0.5f}, .candela = 10'000.0f, .color = {0.5f, 0.7f, 1.0f}},
              {-1.0f, 3.0f, -18.0f}, 12.0f, 20.0f);

@@ -31,7 +31,7 @@ void add_all(Scene& scene, std::span<const Placed> lamps, bool shadow, float ran
 }  // namespace
 
 Scene lamps_open() {
-    Scene scene = empty_scene("lamps_open", -1.0f);
+    Scene scene = empty_scene("lamps_open", 2.2f);
     add_ground(scene, 60.0f);
     // Eye at (0, 1.8, 4): from 2.3 m to 44 m away; the third and fifth lie on rays through the middle of the
     // picture.
@@ -56,7 +56,7 @@ Scene lamps_open() {
 }
 
 Scene lamps_shadowed() {
-    Scene scene = empty_scene("lamps_shadowed", 0.5f);
+    Scene scene = empty_scene("lamps_shadowed", 1.2f);
     add_ground(scene, 40.0f);
     Mesh post{"post", {}, mat4(1.0f)};
     box(post, kStone, {-0.14f, 0.0f, -0.14f}, {0.14f, 3.2f, 0.14f}, kBottom);

@@ -37,6 +37,7 @@ MaterialSet make_materials() {
     add("wood", {0.34f, 0.21f, 0.12f});
     add("clay", {0.50f, 0.20f, 0.11f});
     add("dark", {0.05f, 0.05f, 0.055f});
+    add("moss", {0.062f, 0.06f, 0.045f});
     return set;
 }
 
@@ -81,9 +82,9 @@ int add_spot(Scene& scene, const Lamp& lamp, vec3 target, float inner, float out
     return scene.add_light(light, lamp.position, looking_along(lamp.position, along).rotation());
 }
 
-void add_ground(Scene& scene, float half_width) {
+void add_ground(Scene& scene, float half_width, Surface surface) {
     Mesh ground{"ground", {}, mat4(1.0f)};
-    box(ground, kGround, {-half_width, -0.5f, -half_width}, {half_width, 0.0f, half_width});
+    box(ground, surface, {-half_width, -0.5f, -half_width}, {half_width, 0.0f, half_width});
     scene.add_static(std::move(ground));
 }
 

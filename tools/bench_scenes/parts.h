@@ -8,7 +8,7 @@
 namespace tyndall::bench_scenes {
 
 // Untextured and matt: what a picture shows is light.
-inline constexpr Surface kGround{0}, kStone{1}, kPlaster{2}, kWood{3}, kClay{4}, kDark{5};
+inline constexpr Surface kGround{0}, kStone{1}, kPlaster{2}, kWood{3}, kClay{4}, kDark{5}, kMoss{6};
 
 // Unit direction towards a point of the sky; azimuth 0 is -Z, 90 is -X (as a camera's yaw).
 vec3 sky_direction(float elevation, float azimuth);
@@ -31,7 +31,7 @@ int add_point(Scene& scene, const Lamp& lamp);
 int add_spot(Scene& scene, const Lamp& lamp, vec3 target, float inner, float outer);
 
 // A square of ground about the origin, top at y = 0.
-void add_ground(Scene& scene, float half_width);
+void add_ground(Scene& scene, float half_width, Surface surface = kGround);
 // Upright bars of square section between two points of the ground, the first at `a`, the last at or before `b`.
 void bars(Mesh& mesh, Surface surface, vec3 a, vec3 b, float width, float pitch, float height);
 

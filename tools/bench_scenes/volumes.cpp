@@ -4,7 +4,7 @@
 namespace tyndall::bench_scenes {
 
 Scene depths() {
-    Scene scene = empty_scene("depths", 3.0f);
+    Scene scene = empty_scene("depths", 3.7f);
     add_ground(scene, 60.0f);
     Mesh m{"frame", {}, mat4(1.0f)};
     // An upright frame before the lamp, four openings by three.
@@ -36,14 +36,14 @@ Scene depths() {
 namespace {
 
 Scene cloud_scene(const char* name) {
-    Scene scene = empty_scene(name, 13.5f);
-    add_ground(scene, 200.0f);
+    Scene scene = empty_scene(name, 13.2f);
+    add_ground(scene, 2'000.0f, kMoss);
     Mesh m{"markers", {}, mat4(1.0f)};
     box(m, kClay, {-2.6f, 0.0f, -2.6f}, {-2.3f, 2.2f, -2.3f}, kBottom);
     box(m, kClay, {2.3f, 0.0f, -2.6f}, {2.6f, 2.2f, -2.3f}, kBottom);
     scene.add_static(std::move(m));
     add_sun(scene, sky_direction(40.0f, 75.0f), 80'000.0f, {1.0f, 0.94f, 0.84f});
-    add_view(scene, {1.2f, 2.1f, 5.4f}, {0.0f, 1.4f, 0.0f}, 45.0f);
+    add_view(scene, {1.4f, 3.0f, 5.2f}, {0.0f, 1.3f, 0.0f}, 45.0f);
     return scene;
 }
 
@@ -57,8 +57,8 @@ Scene cube() {
 
 Scene ragged() {
     Scene scene = cloud_scene("ragged");
-    auto cloud = ellipsoid_medium({7.0f, 0.05f, 0.4f}, {0.0f, 1.6f, 0.0f}, {2.1f, 1.3f, 1.6f}, 1.0f);
-    cloud["noise"] = medium_noise(0.7f, 1.0f, 7);
+    auto cloud = ellipsoid_medium({3.0f, 0.03f, 0.4f}, {0.0f, 1.6f, 0.0f}, {2.1f, 1.3f, 1.6f}, 1.0f);
+    cloud["noise"] = medium_noise(0.9f, 1.0f, 7);
     scene.media.push_back(cloud);
     return scene;
 }
