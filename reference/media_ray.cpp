@@ -24,7 +24,8 @@ MediaRay::MediaRay(const Media& media, dvec3 origin, dvec3 unit_direction, doubl
         Local local{*path, {}};
         const double thickest = std::max({shape.sigma_t.x, shape.sigma_t.y, shape.sigma_t.z});
         if (!shape.closed() && thickest > 0)
-            local.table = DensityTable([&](double t) { return path->density(t); }, knots, tolerance / thickest);
+            local.table = DensityTable([&](double t) { return path->density(t); }, knots,
+                                       shape.attainable(tolerance / thickest, knots.back() - knots.front()));
         locals_.push_back(std::move(local));
         edges.insert(edges.end(), knots.begin(), knots.end());
     }
@@ -36,10 +37,19 @@ MediaRay::MediaRay(const Media& media, dvec3 origin, dvec3 unit_direction, doubl
 
 double MediaRay::source_end(double end) const {
     double last = 0;
-    for (const Media::Unbounded& m : media_->unbounded())
-        last = std::max(last, m.height && direction_.y > 0 ? heights_seen * m.falloff / direction_.y : farthest);
+    for (const Media::Unbounded& m : media_->unbounded()) {
+        if (m.height && direction_.y > 0) {
+            last = std::max(last, heights_seen * m.falloff / direction_.y);
+            continue;
+        }
+        const dvec3 sigma_t = m.density(origin_.y) * m.at_density_1.sigma_t;  // the least on this ray
+        for (int i = 0; i < 3; ++i) {
+            const bool source = m.at_density_1.sigma_s[i] > 0 || m.at_density_1.emission[i] > 0;
+            if (source) last = std::max(last, sigma_t[i] > 0 ? opaque / sigma_t[i] : farthest);
+        }
+    }
     for (const Local& local : locals_) last = std::max(last, local.path.inside.end);
-    return std::min({last, end, farthest});
+    return std::min(last, end);
 }
 
 MediumPoint MediaRay::at(double t) const {
@@ -83,7 +93,6 @@ double MediaRay::where_depth_is(double wanted, double end, bool thinnest) const 
     while (after - before > 1e-3 * after) {
         const double middle = 0.5 * (before + after);
         (reaches(middle) ? after : before) = middle;
-        if (after < 1e-12) break;
     }
     return after;
 }

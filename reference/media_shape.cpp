@@ -17,7 +17,8 @@ namespace tyndall::reference {
 namespace {
 
 constexpr double greatest_exponent = 60;  ///< of a height profile: density 1e26
-constexpr double thinnest_rim = 1e-6;     ///< m; what is thinner is a step
+constexpr std::size_t most_panels = 2000;
+constexpr double thinnest_rim = 1e-6;  ///< m; what is thinner is a step
 
 double smallest(dvec3 v) {
     return std::min({v.x, v.y, v.z});
@@ -197,6 +198,10 @@ std::vector<double> MediumShape::knots(const Path& path, double begin, double en
     return knots;
 }
 
+double MediumShape::attainable(double tolerance, double length) const {
+    return noisy_ ? std::max(tolerance, 2e-6 * length) : tolerance;
+}
+
 double MediumShape::density_length(const Path& path, double begin, double end, double tolerance) const {
     begin = std::max(begin, path.inside.begin);
     end = std::min(end, path.inside.end);
@@ -212,7 +217,9 @@ double MediumShape::density_length(const Path& path, double begin, double end, d
             sum += 0.5 * (t[i + 1] - t[i]) * (path.density(t[i]) + path.density(t[i + 1]));
         return sum;
     }
-    return integrate<double>([&](double x) { return path.density(x); }, t, {tolerance, 1e-12}).value;
+    return integrate<double>([&](double x) { return path.density(x); }, t,
+                             {attainable(tolerance, length), 1e-12, most_panels})
+        .value;
 }
 
 }  // namespace tyndall::reference

@@ -42,7 +42,10 @@ class MediumShape {
     [[nodiscard]] std::vector<double> knots(const Path& path, double begin, double end) const;
     /// The integral of the density between two distances can be had in closed form.
     [[nodiscard]] bool closed() const { return !noisy_ && (softness_ == 0 || (box_ && !profile_)); }
-    /// That integral, m: in closed form or by adaptive quadrature to `tolerance`, m.
+    /// What an integral over `length` metres can be accurate to, m, if asked for `tolerance`: noise is single
+    /// precision.
+    [[nodiscard]] double attainable(double tolerance, double length) const;
+    /// That integral, m: in closed form or by adaptive quadrature to `tolerance`, m, if attainable.
     [[nodiscard]] double density_length(const Path& path, double begin, double end, double tolerance) const;
 
   private:
