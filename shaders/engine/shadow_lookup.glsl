@@ -44,11 +44,9 @@ bool in_map(vec3 p) { return all(lessThan(abs(p.xy - 0.5), vec2(0.5))); }
 
 // p: uv and depth. Casters or receivers outside the depth range were clamped to it.
 float sun_static_lookup(vec3 p) {
-    count_work(WORK_SHADOW_LOOKUPS, 1u);
     return texture(sun_static_map, vec3(p.xy, clamp(p.z, 0.0, 1.0)));
 }
 float sun_cascade_lookup(int cascade, vec3 p) {
-    count_work(WORK_SHADOW_LOOKUPS, 1u);
     return texture(sun_cascade_maps, vec4(p.xy, float(cascade), clamp(p.z, 0.0, 1.0)));
 }
 
@@ -63,6 +61,7 @@ float sun_map_surface(int map, vec3 world, vec3 normal) {
         vec3 p = (frame.sun_cascade[map] *
                   vec4(world + normal * shadow_normal_offset(frame.sun_texel[map], cos_axis), 1.0)).xyz;
         if (in_map(p)) {
+            count_work(WORK_SHADOW_LOOKUPS, 4u);
             for (int i = 0; i < 4; ++i)
                 lit += sun_cascade_lookup(map, p + vec3(shadow_taps[i] * frame.sun_static_texel.y, 0.0));
             return 0.25 * lit;
@@ -71,6 +70,7 @@ float sun_map_surface(int map, vec3 world, vec3 normal) {
     vec3 p = (frame.sun_static *
               vec4(world + normal * shadow_normal_offset(frame.sun_static_texel.x, cos_axis), 1.0)).xyz;
     if (!in_map(p)) return 1.0;
+    count_work(WORK_SHADOW_LOOKUPS, 4u);
     for (int i = 0; i < 4; ++i) lit += sun_static_lookup(p + vec3(shadow_taps[i] * frame.sun_static_texel.z, 0.0));
     return 0.25 * lit;
 }
@@ -88,7 +88,7 @@ float sun_shadow_surface(vec3 world, vec3 normal, float view_depth) {
     return lit;
 }
 
-// One lookup, for points in the air.
+// One lookup, for points in the air. Not counted as work here: the volumetrics module counts what it asks for.
 float sun_shadow_volume(vec3 world, float view_depth) {
     vec3 towards_sun = -shadow_volume_bias * frame.sun_direction.xyz;
     int cascade = sun_cascade_at(view_depth);
@@ -119,7 +119,6 @@ float atlas_lookup(ShadowTile tile, vec4 clip, vec2 tap) {
     vec3 p = clip.xyz / clip.w;
     vec2 uv = tile.rect.xy + tile.rect.z * (0.5 + 0.5 * p.xy) + tap * 2.0 * half_texel;
     uv = clamp(uv, tile.rect.xy + half_texel, tile.rect.xy + tile.rect.z - half_texel);
-    count_work(WORK_SHADOW_LOOKUPS, 1u);
     return texture(shadow_atlas, vec3(uv, clamp(p.z, 0.0, 1.0)));
 }
 
@@ -138,6 +137,7 @@ float light_shadow_surface(GpuLight light, vec3 world, vec3 normal) {
     vec4 clip = tile.world_to_clip * vec4(p, 1.0);
     if (tile.depth.w == 0.0 || clip.w <= tile.depth.x) return 1.0;
     float lit = 0.0;
+    count_work(WORK_SHADOW_LOOKUPS, 4u);
     for (int i = 0; i < 4; ++i) lit += atlas_lookup(tile, clip, shadow_taps[i]);
     return 0.25 * lit;
 }

@@ -312,7 +312,7 @@ TEST_F(ShadowSun, CountsEachLookup) {
     const glm::mat4 to_world = glm::inverse(rig.view.view);
     const auto at = [&](float depth) { return Point{glm::vec3(to_world * glm::vec4(0, 0, -depth, 1)), depth}; };
     const std::vector<Point> plain(100, at(middle)), mixed(100, at(end));
-    EXPECT_EQ(rig.counted(Lookup::sun_volume, plain), 100u);
+    EXPECT_EQ(rig.counted(Lookup::sun_volume, plain), 0u) << "who asks counts";
     EXPECT_EQ(rig.counted(Lookup::sun_surface, plain), 400u);
     EXPECT_EQ(rig.counted(Lookup::sun_surface, mixed), 800u);
 }
