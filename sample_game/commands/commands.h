@@ -10,6 +10,7 @@ void add_compare_command(CLI::App& app);
 void add_flythrough_command(CLI::App& app);
 void add_list_command(CLI::App& app);
 void add_play_command(CLI::App& app);
+void add_reference_command(CLI::App& app);
 void add_render_command(CLI::App& app);
 
 }  // namespace tyndall

@@ -1,0 +1,140 @@
+#include "reference/reference.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <memory>
+
+#include "engine/core/error.h"
+#include "engine/core/image.h"
+#include "engine/render/passes/tonemap.h"
+#include "engine/render/render_settings.h"
+#include "sample_game/commands/commands.h"
+#include "sample_game/progress.h"
+#include "sample_game/scene_options.h"
+#include "shaders/lib/glm_subset.h"
+#include "volumetrics/settings.h"
+
+TYNDALL_GLSL_BEGIN
+#include "shaders/lib/tonemap.glsl"
+TYNDALL_GLSL_END
+
+namespace tyndall {
+namespace {
+
+struct Options {
+    SceneOptions scene;
+    ViewOptions view;
+    std::string output, layer = "color";
+    int samples = 1, threads = 0;
+    double tolerance = reference::Settings{}.tolerance;
+    bool black_surfaces = false;
+};
+
+const std::map<std::string, Image reference::Picture::*> layers{
+    {"color", &reference::Picture::color},
+    {"scattering", &reference::Picture::scattering},
+    {"transmittance", &reference::Picture::transmittance},
+    {"depth", &reference::Picture::depth},
+    {"error", &reference::Picture::error}};
+
+/// What a player sees, without the dither of the engine's last pass.
+Image displayed(const Image& color, float exposure) {
+    Image shown(color.size, 3);
+    for (int y = 0; y < color.size.y; ++y)
+        for (int x = 0; x < color.size.x; ++x) {
+            const float* from = color.at(x, y);
+            const glm::vec3 mapped = glsl::tonemap(exposure * glm::vec3(from[0], from[1], from[2]));
+            for (int i = 0; i < 3; ++i) shown.at(x, y)[i] = glsl::srgb_encode(mapped[i]);
+        }
+    return shown;
+}
+
+void print_error(const reference::Picture& picture) {
+    double mean = 0, error = 0, most = 0;
+    for (const float v : picture.scattering.pixels) mean += v;
+    for (const float v : picture.error.pixels) error += v, most = std::max<double>(most, v);
+    mean /= static_cast<double>(picture.scattering.pixels.size());
+    error /= static_cast<double>(picture.error.pixels.size());
+    if (mean > 0)
+        fmt::print("scattering: mean {:.6g} cd/m²; estimated error relative to that: mean {:.2g}, max {:.2g}\n",
+                   mean, error / mean, most / mean);
+    else
+        fmt::print("scattering: none\n");
+}
+
+/// Before hours of work, not after.
+void check_folder(const std::filesystem::path& file) {
+    const std::filesystem::path folder = std::filesystem::absolute(file).parent_path();
+    if (!std::filesystem::is_directory(folder) || std::filesystem::is_directory(file))
+        throw Error(fmt::format("{}: cannot be written: no such folder, or a folder itself", file.string()));
+}
+
+void run(const Options& o) {
+    check_picture_name(o.output);
+    check_folder(o.output);
+    o.view.check();
+    volumetrics::Settings volumetrics;
+    RenderSettings render;
+    SettingsSet settings;
+    settings.add(volumetrics::settings_table(), &volumetrics);
+    settings.add(render_settings_table(), &render);
+    o.scene.apply(settings);
+    const glm::ivec2 size = o.scene.pixels();
+
+    Scene scene = o.scene.load();
+    animate(scene, o.view.time);
+    const View view = o.view.view(scene, size);
+    if (volumetrics.technique == volumetrics::Technique::off) scene.media.clear();
+    const reference::Reference integrator(scene,
+                                          {.light_transmittance = volumetrics.light_transmittance,
+                                           .schlick = volumetrics.phase == volumetrics::PhaseFunction::schlick,
+                                           .shadows = render.shadows,
+                                           .ambient = render.ambient,
+                                           .black_surfaces = o.black_surfaces,
+                                           .tolerance = o.tolerance});
+    reference::Picture picture;
+    {
+        Progress progress("reference, row", size.y);
+        picture =
+            reference::render(integrator, view, size, o.samples, o.threads, [&](int, int) { progress.step(); });
+    }
+    const bool display = o.output.ends_with(".png") && o.layer == "color";
+    write_image(o.output,
+                display ? displayed(picture.color, exposure_factor(scene.exposure_ev100, render.exposure_bias))
+                        : picture.*layers.at(o.layer));
+    print_error(picture);
+}
+
+}  // namespace
+
+void add_reference_command(CLI::App& app) {
+    auto o = std::make_shared<Options>();
+    CLI::App* command = app.add_subcommand(
+        "reference",
+        "The same picture from the ground truth: double precision on the CPU, exact visibility, no GL. Of the "
+        "settings, ambient, light_transmittance, phase, shadows and exposure_bias change it, and technique=off, "
+        "which "
+        "leaves the media out");
+    o->scene.add_to(*command, "", "640x360");
+    command->add_option("-o,--output", o->output, "OUT.exr or OUT.png")->required();
+    o->view.add_to(*command);
+    command->add_option("--layer", o->layer, "what to write; error: the estimated error of scattering")
+        ->check(CLI::IsMember(layers))
+        ->capture_default_str();
+    command->add_option("--samples", o->samples, "rays per pixel and axis: N x N, averaged; 1: through its centre")
+        ->check(CLI::Range(1, 256))
+        ->capture_default_str();
+    command->add_option("--threads", o->threads, "0: all processors; the picture does not depend on it")
+        ->check(CLI::Range(0, 1024))
+        ->capture_default_str();
+    command->add_option("--tolerance", o->tolerance, "of the scattering of a ray, relative")
+        ->check(CLI::Range(1e-12, 0.1))
+        ->capture_default_str();
+    command->add_flag("--black-surfaces", o->black_surfaces, "surfaces block and hide, and send no light");
+    command->callback([o] { run(*o); });
+}
+
+}  // namespace tyndall

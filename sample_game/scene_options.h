@@ -1,0 +1,55 @@
+#pragma once
+
+#include <glm/glm.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/core/settings.h"
+#include "engine/scene/scene.h"
+#include "engine/scene/view.h"
+
+namespace CLI {
+class App;
+}
+
+namespace tyndall {
+
+/// What is drawn, how large and with which settings: the options of every command that makes pictures.
+struct SceneOptions {
+    std::string scene;
+    std::string size;
+    std::optional<std::string> media, technique, preset;
+    std::vector<std::string> set;
+
+    /// Adds the options to a command; the scene is required unless it has a default.
+    void add_to(CLI::App& command, const std::string& default_scene, const std::string& default_size);
+    [[nodiscard]] glm::ivec2 pixels() const;  ///< throws UsageError unless "WxH" within 1..16384
+    void apply(SettingsSet& settings) const;  ///< preset, then technique, then `set`; throws UsageError or Error
+    [[nodiscard]] Scene load() const;         ///< with its media and at least one camera, at time 0; throws Error
+};
+
+/// From where, and when.
+struct ViewOptions {
+    std::optional<std::string> camera;
+    std::vector<float> eye, look;
+    float fov = 60;
+    double time = 0;  ///< s
+
+    void add_to(CLI::App& command);
+    void check() const;  ///< throws UsageError: what excludes or needs each other
+    /// Of a scene at `time`. Throws UsageError.
+    [[nodiscard]] View view(const Scene& scene, glm::ivec2 size) const;
+};
+
+/// The view of a scene camera (its node's current transform). Throws UsageError listing the cameras.
+[[nodiscard]] View camera_view(const Scene& scene, const std::string& name, float aspect);
+
+/// Throws UsageError unless a picture can be written under this name.
+void check_picture_name(const std::string& path);
+
+/// A settings preset: a name in assets/presets, or a path.
+void apply_preset(SettingsSet& settings, const std::string& name_or_path);
+[[nodiscard]] std::vector<std::string> preset_names();
+
+}  // namespace tyndall
