@@ -73,22 +73,54 @@ float step_at(Span span, float t) {
     return float(steps) * log(1.0 + share * (exp(STEP_GROWTH) - 1.0)) / STEP_GROWTH;
 }
 
+// Which local media a loop is to look at, a bit for each: skipping them one by one inside the loop would cost
+// rasterisers that run all lanes in step as much as doing them. Those past the last word are always looked at.
+const uint MASK_WORDS = 8u;
+struct MediaMask {
+    uint words[MASK_WORDS];
+};
+
+uint mask_word_count() { return (volumetrics.counts.y + 31u) / 32u; }
+uint mask_word(MediaMask mask, uint word) {
+    uint rest = volumetrics.counts.y - 32u * word;
+    return word < MASK_WORDS ? mask.words[word] : rest < 32u ? (1u << rest) - 1u : ~0u;
+}
+
+// Those that may come within a distance of the line from a over path_length metres.
+MediaMask media_near(vec3 a, vec3 direction, float path_length, float distance) {
+    MediaMask mask;
+    for (uint word = 0u; word < MASK_WORDS; ++word) mask.words[word] = 0u;
+#if LOCAL_MEDIA
+    for (uint i = 0u; i < min(volumetrics.counts.y, 32u * MASK_WORDS); ++i) {
+        mat4 to_shape = local_media[i].world_to_shape;
+        vec3 p = (to_shape * vec4(a, 1.0)).xyz;  // from the centre of the shape
+        vec3 d = mat3(to_shape) * direction;
+        float radius = length(local_media[i].extent_softness.xyz) + distance;
+        p += d * clamp(-dot(p, d), 0.0, path_length);
+        if (dot(p, p) <= radius * radius) mask.words[i / 32u] |= 1u << (i % 32u);
+    }
+#endif
+    return mask;
+}
+
 // Adds the local media between a and b: each by its density in the middle of what lies in its shape.
-void add_local_media(Ray ray, float a, float b, inout Medium m) {
+void add_local_media(Ray ray, float a, float b, MediaMask mask, inout Medium m) {
 #if LOCAL_MEDIA
     float weighted = m.anisotropy * mean_channel(m.sigma_s);
-    for (uint i = 0u; i < volumetrics.counts.y; ++i) {
-        LocalMedium medium = local_media[i];
-        vec2 inside = inside_shape(medium, ray.origin, ray.direction, a, b);
-        if (inside.x >= inside.y) continue;
-        float density_length = inside.y - inside.x;
-        if (!is_homogeneous(medium))
-            density_length *= local_density(medium, ray.origin + ray.direction * (0.5 * (inside.x + inside.y)));
-        vec3 sigma_s = medium.sigma_s_g.rgb * (density_length / (b - a));
-        m.sigma_s += sigma_s;
-        m.emission += medium.emission_noise.rgb * (density_length / (b - a));
-        m.optical_depth += (medium.sigma_s_g.rgb + medium.sigma_a_shape.rgb) * density_length;
-        weighted += medium.sigma_s_g.w * mean_channel(sigma_s);
+    for (uint word = 0u; word < mask_word_count(); ++word) {
+        for (uint bits = mask_word(mask, word); bits != 0u; bits &= bits - 1u) {
+            LocalMedium medium = local_media[32u * word + uint(findLSB(bits))];
+            vec2 inside = inside_shape(medium, ray.origin, ray.direction, a, b);
+            if (inside.x >= inside.y) continue;
+            float density_length = inside.y - inside.x;
+            if (!is_homogeneous(medium))
+                density_length *= local_density(medium, ray.origin + ray.direction * (0.5 * (inside.x + inside.y)));
+            vec3 sigma_s = medium.sigma_s_g.rgb * (density_length / (b - a));
+            m.sigma_s += sigma_s;
+            m.emission += medium.emission_noise.rgb * (density_length / (b - a));
+            m.optical_depth += (medium.sigma_s_g.rgb + medium.sigma_a_shape.rgb) * density_length;
+            weighted += medium.sigma_s_g.w * mean_channel(sigma_s);
+        }
     }
     m.anisotropy = weighted / max(mean_channel(m.sigma_s), 1.0e-30);
 #endif
@@ -96,26 +128,28 @@ void add_local_media(Ray ray, float a, float b, inout Medium m) {
 
 // Optical depth of the local media over path_length metres from a point; in closed form where their density is constant,
 // else from light_steps samples in each. `work` counts loop iterations.
-vec3 local_optical_depth(vec3 point, vec3 direction, float path_length, inout int work) {
+vec3 local_optical_depth(vec3 point, vec3 direction, float path_length, MediaMask mask, inout int work) {
     vec3 depth = vec3(0.0);
 #if LOCAL_MEDIA
     if (volumetrics.options.y == 0u) return depth;
-    work += int(volumetrics.counts.y);
-    for (uint i = 0u; i < volumetrics.counts.y; ++i) {
-        LocalMedium medium = local_media[i];
-        vec2 inside = inside_shape(medium, point, direction, 0.0, path_length);
-        if (inside.x >= inside.y) continue;
-        float density = 1.0;
-        if (!is_homogeneous(medium)) {
-            density = 0.0;
-            for (int k = 0; k < light_steps; ++k) {
-                float t = mix(inside.x, inside.y, (float(k) + 0.5) / float(light_steps));
-                density += local_density(medium, point + direction * t);
+    for (uint word = 0u; word < mask_word_count(); ++word) {
+        for (uint bits = mask_word(mask, word); bits != 0u; bits &= bits - 1u) {
+            LocalMedium medium = local_media[32u * word + uint(findLSB(bits))];
+            ++work;
+            vec2 inside = inside_shape(medium, point, direction, 0.0, path_length);
+            if (inside.x >= inside.y) continue;
+            float density = 1.0;
+            if (!is_homogeneous(medium)) {
+                density = 0.0;
+                for (int k = 0; k < light_steps; ++k) {
+                    float t = mix(inside.x, inside.y, (float(k) + 0.5) / float(light_steps));
+                    density += local_density(medium, point + direction * t);
+                }
+                density /= float(light_steps);
+                work += light_steps * (1 + MEDIA_NOISE_OCTAVES);
             }
-            density /= float(light_steps);
-            work += light_steps * (1 + MEDIA_NOISE_OCTAVES);
+            depth += (medium.sigma_s_g.rgb + medium.sigma_a_shape.rgb) * (density * (inside.y - inside.x));
         }
-        depth += (medium.sigma_s_g.rgb + medium.sigma_a_shape.rgb) * (density * (inside.y - inside.x));
     }
 #endif
     return depth;

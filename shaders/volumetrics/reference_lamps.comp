@@ -22,12 +22,12 @@ const int WORK_LIMIT = 8000;
 // Optical depth of the local media from the first step's begin to each later one.
 vec3 local_depth[MAX_STEP_COUNT + 1];
 
-void fill_local_depth(Ray ray, Span span) {
+void fill_local_depth(Ray ray, Span span, MediaMask mask) {
     local_depth[0] = vec3(0.0);
 #if LOCAL_MEDIA
     for (int i = 0; i < step_count; ++i) {
         Medium m = Medium(vec3(0.0), 0.0, vec3(0.0), vec3(0.0));
-        add_local_media(ray, step_begin(span, first_step + i), step_begin(span, first_step + i + 1), m);
+        add_local_media(ray, step_begin(span, first_step + i), step_begin(span, first_step + i + 1), mask, m);
         local_depth[i + 1] = local_depth[i] + m.optical_depth;
     }
 #endif
@@ -43,22 +43,31 @@ vec3 local_depth_to(Span span, float t) {
 #endif
 }
 
-Medium medium_at(vec3 point) {
+Medium medium_at(vec3 point, MediaMask mask) {
     Medium m = global_medium(point.y, 0.0, 0.0);
 #if LOCAL_MEDIA
     float weighted = m.anisotropy * mean_channel(m.sigma_s);
-    for (uint i = 0u; i < volumetrics.counts.y; ++i) {
-        vec3 sigma_s = local_media[i].sigma_s_g.rgb * local_density(local_media[i], point);
-        m.sigma_s += sigma_s;
-        weighted += local_media[i].sigma_s_g.w * mean_channel(sigma_s);
+    for (uint word = 0u; word < mask_word_count(); ++word) {
+        for (uint bits = mask_word(mask, word); bits != 0u; bits &= bits - 1u) {
+            LocalMedium medium = local_media[32u * word + uint(findLSB(bits))];
+            vec3 sigma_s = medium.sigma_s_g.rgb * local_density(medium, point);
+            m.sigma_s += sigma_s;
+            weighted += medium.sigma_s_g.w * mean_channel(sigma_s);
+        }
     }
     m.anisotropy = weighted / max(mean_channel(m.sigma_s), 1.0e-30);
 #endif
     return m;
 }
 
+// Local media on these steps of the ray, and between them and a lamp.
+struct MediaMasks {
+    MediaMask on_ray;
+    MediaMask towards_lamp;
+};
+
 // Of the light a lamp sends to a point of the ray, what comes to `begin`, per metre, apart from the inverse square.
-vec3 scattered(Ray ray, Span span, float begin, float t, GpuLight light, uint index, inout int work) {
+vec3 scattered(Ray ray, Span span, float begin, float t, GpuLight light, uint index, MediaMasks masks, inout int work) {
     vec3 point = ray.origin + ray.direction * t;
     vec3 to_lamp = light.position_range.xyz - point;
     float distance_squared = dot(to_lamp, to_lamp);
@@ -70,12 +79,12 @@ vec3 scattered(Ray ray, Span span, float begin, float t, GpuLight light, uint in
     if (is_spot(light)) strength *= spot_cone(-dot(to_lamp, light.direction_type.xyz), light.cone_shadow.xy);
     if (strength > 0.0) strength *= lamp_visibility(index, light, point);
     if (strength <= 0.0) return vec3(0.0);
-    Medium m = medium_at(point);
+    Medium m = medium_at(point, masks.on_ray);
     float advance = t - begin;
     vec3 depth = volumetrics.homogeneous_sigma_t.rgb * advance +
                  height_optical_depth(ray.origin.y + ray.direction.y * begin, ray.direction.y, advance) +
                  local_depth_to(span, t) + lamp_optical_depth(point.y, to_lamp, distance) +
-                 local_optical_depth(point, to_lamp, distance, work);
+                 local_optical_depth(point, to_lamp, distance, masks.towards_lamp, work);
 #if LOCAL_MEDIA
     work += (1 + MEDIA_NOISE_OCTAVES) * int(volumetrics.counts.y);
 #endif
@@ -84,19 +93,23 @@ vec3 scattered(Ray ray, Span span, float begin, float t, GpuLight light, uint in
     return m.sigma_s * exp(-depth) * (strength * p);
 }
 
-vec3 lamp_over_steps(Ray ray, Span span, float begin, FoundLamp found, inout int work) {
+vec3 lamp_over_steps(Ray ray, Span span, float begin, FoundLamp found, MediaMask on_ray, inout int work) {
     GpuLight light = light_at(found.index);
     float a = found.reach.begin - found.lamp.t_closest;
     float size = found.reach.end - found.reach.begin;
     LampIntegral integral = lamp_integral(a, a + size, size, found.lamp.h, light.intensity_radius.w);
+    vec3 middle = ray.origin + ray.direction * (found.reach.begin + 0.5 * size);
+    vec3 to_lamp = light.position_range.xyz - middle;
+    float distance = max(length(to_lamp), 1.0e-6);
+    MediaMasks masks = MediaMasks(on_ray, media_near(middle, to_lamp / distance, distance, 0.5 * size));
     vec3 sum = vec3(0.0);
     for (int k = 0; k < lamp_samples; ++k) {
         float share = (float(k) + 0.5) / float(lamp_samples);
         float t = found.reach.begin + clamp(lamp_advance(integral, share * integral.total), 0.0, size);
         count_work(WORK_LIGHT_EVALUATIONS, 1u);
-        sum += scattered(ray, span, begin, t, light, found.index, work);
+        sum += scattered(ray, span, begin, t, light, found.index, masks, work);
     }
-    work += lamp_samples;
+    work += lamp_samples + int(volumetrics.counts.y);
     return light.intensity_radius.rgb * sum * (integral.total / float(lamp_samples));
 }
 
@@ -121,7 +134,8 @@ void main() {
     Span span = media_span(ray, pixel);
     float begin = step_begin(span, first_step);
     Segment segment = Segment(begin, step_begin(span, first_step + step_count), 0.0, 0.0, vec3(0.0), vec3(0.0));
-    fill_local_depth(ray, span);
+    MediaMask on_ray = media_near(ray.origin + ray.direction * begin, ray.direction, segment.end - begin, 0.0);
+    fill_local_depth(ray, span, on_ray);
 
     int first_slice = lamp_walk(ray, segment).slice + 1;
     LampWalk walk = resumed_walk(ray, segment, radiance.a, depth.a);
@@ -130,7 +144,7 @@ void main() {
     int work = 0;
     bool more = next_lamp(ray, segment, walk, found);
     for (; more && work < WORK_LIMIT; more = next_lamp(ray, segment, walk, found))
-        sum += lamp_over_steps(ray, span, begin, found, work);
+        sum += lamp_over_steps(ray, span, begin, found, on_ray, work);
 
     vec2 state = vec2(DONE, 0.0);
     if (more) {

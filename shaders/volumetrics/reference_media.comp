@@ -3,7 +3,9 @@
 
 uniform int last;  // 1 for the dispatch that ends the rays
 
-vec3 sun_source(Ray ray, float t, Medium m) {
+const float FAR = 1.0e9;  // m
+
+vec3 sun_source(Ray ray, float t, Medium m, MediaMask towards_sun) {
 #if HAS_SUN
     vec3 point = ray.origin + ray.direction * t;
     count_work(WORK_SHADOW_LOOKUPS, 1u);
@@ -11,7 +13,7 @@ vec3 sun_source(Ray ray, float t, Medium m) {
     if (visible <= 0.0) return vec3(0.0);
     vec3 to_sun = -sun_direction();
     int work = 0;
-    vec3 depth = sun_optical_depth(point.y, to_sun) + local_optical_depth(point, to_sun, 1.0e30, work);
+    vec3 depth = sun_optical_depth(point.y, to_sun) + local_optical_depth(point, to_sun, FAR, towards_sun, work);
     float p = phase(int(volumetrics.options.x), m.anisotropy, dot(to_sun, ray.direction));
     return m.sigma_s * sun_illuminance() * exp(-depth) * (visible * p);
 #else
@@ -39,14 +41,22 @@ void main() {
     march.radiance = imageLoad(radiance_image, pixel).rgb;
     vec3 depth = imageLoad(optical_depth_image, pixel).rgb;
 
+    float first = step_begin(span, first_step);
+    float size = step_begin(span, first_step + step_count) - first;
+    MediaMask on_ray = media_near(ray.origin + ray.direction * first, ray.direction, size, 0.0);
+    MediaMask towards_sun = on_ray;
+#if HAS_SUN
+    vec3 middle = ray.origin + ray.direction * (first + 0.5 * size);
+    towards_sun = media_near(middle, -sun_direction(), FAR, 0.5 * size);
+#endif
     for (int i = first_step; i < first_step + step_count; ++i) {
         float a = step_begin(span, i);
         float b = step_begin(span, i + 1);
         if (a >= b || is_opaque(depth)) break;
         Medium m = global_medium(ray.origin.y + ray.direction.y * a, ray.direction.y, b - a);
-        add_local_media(ray, a, b, m);
+        add_local_media(ray, a, b, on_ray, m);
         count_work(WORK_MEDIUM_SAMPLES, 1u);
-        vec3 source = m.sigma_s * ambient + m.emission + sun_source(ray, 0.5 * (a + b), m);
+        vec3 source = m.sigma_s * ambient + m.emission + sun_source(ray, 0.5 * (a + b), m, towards_sun);
         march.radiance += exp(-depth) * source * medium_optics(m, b - a).effective_length;
         depth = min(depth + m.optical_depth, MAX_OPTICAL_DEPTH);
     }
