@@ -46,11 +46,11 @@ class Geometry {
     /// The parts of origin + t * unit_direction, t in [begin, end], from which a light is visible, in order and
     /// disjoint: by slicing every triangle with the plane through ray and light and projecting the cut onto the
     /// ray, so that no occluder is too thin to count and edges are exact to rounding; masks, too, as they are
-    /// quadratic along the cut. Both sides block. `end` may be infinite. A ray within 1e-9 rad of the light's
-    /// direction (or through the lamp) is lit up to the first surface from the light. Dark or lit stretches below
-    /// 1e-9 m, triangles within 1e-9 m of the ray's line, and those within 1e-6 m of the lamp's distance from it (a
-    /// lamp on a ceiling) do not count. There is no near plane: what stands around a lamp, if nearer than the
-    /// lamp's radius, darkens it here and not in the engine's maps.
+    /// quadratic along the cut. Both sides block. `end` may be infinite. A ray within 1e-7 rad of the light's
+    /// direction (or through the lamp) is lit up to the first surface from the light. Not counted: dark or lit
+    /// stretches below 1e-9 m, and what, along the light, lies within 1e-9 m of the ray or 1e-6 m of the lamp (a
+    /// ray along a floor, a lamp on a ceiling). There is no near plane: what is nearer to a lamp than its radius
+    /// darkens it here, and not in the engine's shadow maps.
     [[nodiscard]] std::vector<Interval> lit_by_sun(dvec3 origin, dvec3 unit_direction, double begin, double end,
                                                    dvec3 to_sun) const;
     [[nodiscard]] std::vector<Interval> lit_by_lamp(dvec3 origin, dvec3 unit_direction, double begin, double end,

@@ -7,10 +7,10 @@
 namespace tyndall::reference {
 namespace {
 
-constexpr double smallest_angle = 1e-9;  // rad, between ray and light
-/// m. What lies this near to the ray or to the lamp's level darkens nothing: a lamp on a ceiling, a ray along a
-/// floor.
-constexpr double on_ray = 1e-9, at_lamp = 1e-6;
+constexpr double smallest_angle = 1e-7;  // rad, between ray and light: below, rounding shows in t
+/// Along the light, m: what lies this near to the ray or to the lamp darkens nothing. A lamp hangs on a ceiling, a
+/// ray runs along a floor.
+constexpr double at_ray = 1e-9, at_lamp = 1e-6;
 
 /// The point of an edge that lies in the plane; the same for both triangles of an edge, to the last bit.
 struct Crossing {
@@ -25,6 +25,11 @@ Crossing crossing(const Caster& caster, const std::array<double, 3>& height, std
     c.weights[static_cast<int>(i)] = 1 - u;
     c.weights[static_cast<int>(j)] = u;
     return c;
+}
+
+/// A stretch of a ray shorter than this is a product of rounding, at a distance t; m.
+double rounding(double t) {
+    return 1e-9 * std::max(1.0, std::abs(t));
 }
 
 double lerp(double a, double b, double u) {
@@ -54,7 +59,7 @@ std::optional<Slice> sun_slice(dvec3 origin, dvec3 unit_direction, double begin,
     // p - origin = t d + s l: dotted with l × n and n × d this leaves t and s, times the sine.
     const dvec3 n = across / sine;
     return Slice{{origin, n},
-                 {origin, glm::cross(n, unit_direction), -on_ray},
+                 {origin, glm::cross(n, unit_direction), -at_ray * sine},
                  {origin, glm::cross(to_sun, n)},
                  {origin, dvec3(0), sine},
                  0,
@@ -66,14 +71,15 @@ std::optional<Slice> lamp_slice(dvec3 origin, dvec3 unit_direction, double begin
     const dvec3 to_lamp = lamp - origin;
     const dvec3 across = glm::cross(unit_direction, to_lamp);
     const double distance = glm::length(across);  // of the lamp from the ray
-    if (distance < std::max(smallest_angle * glm::length(to_lamp), 1e-12)) return {};
+    const double sine = distance / std::max(glm::length(to_lamp), 1e-12);
+    if (sine < smallest_angle || distance < 1e-12) return {};
     // origin + t d, the lamp and p lie on a line: (p - lamp) × (t d - to_lamp) · n = 0.
     const dvec3 n = across / distance;
     return Slice{{origin, n},
-                 {origin, glm::cross(n, unit_direction), -std::min(on_ray, 1e-3 * distance)},
+                 {origin, glm::cross(n, unit_direction), -std::min(at_ray * sine, 1e-3 * distance)},
                  {lamp, glm::cross(to_lamp, n)},
                  {lamp, glm::cross(unit_direction, n)},
-                 std::min(at_lamp, 1e-3 * distance),
+                 std::min(at_lamp * sine, 1e-3 * distance),
                  begin,
                  end};
 }
@@ -113,8 +119,7 @@ void merge(std::vector<Interval>& intervals) {
     std::ranges::sort(intervals, {}, &Interval::begin);
     std::size_t last = 0;
     for (std::size_t i = 1; i < intervals.size(); ++i) {
-        const double joined = 1e-9 * std::max(1.0, std::abs(intervals[last].end));
-        if (intervals[i].begin <= intervals[last].end + joined)
+        if (intervals[i].begin <= intervals[last].end + rounding(intervals[last].end))
             intervals[last].end = std::max(intervals[last].end, intervals[i].end);
         else
             intervals[++last] = intervals[i];
@@ -123,12 +128,16 @@ void merge(std::vector<Interval>& intervals) {
 }
 
 std::vector<Interval> lit_between(const std::vector<Interval>& dark, double begin, double end) {
+    if (dark.empty()) return {{begin, end}};
     std::vector<Interval> lit;
+    const auto add = [&](double from, double to) {
+        if (to - from > rounding(from)) lit.push_back({from, to});
+    };
     for (const Interval& shadow : dark) {
-        if (shadow.begin > begin) lit.push_back({begin, shadow.begin});
+        add(begin, shadow.begin);
         begin = shadow.end;
     }
-    if (begin < end) lit.push_back({begin, end});
+    add(begin, end);
     return lit;
 }
 

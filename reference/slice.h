@@ -32,7 +32,7 @@ struct Slice {
     double nearest;
     double begin, end;
 };
-/// Empty where ray and light span no plane: within 1e-9 rad of the light's direction.
+/// Empty where ray and light span no plane: within 1e-7 rad of the light's direction.
 [[nodiscard]] std::optional<Slice> sun_slice(dvec3 origin, dvec3 unit_direction, double begin, double end,
                                              dvec3 to_sun);
 [[nodiscard]] std::optional<Slice> lamp_slice(dvec3 origin, dvec3 unit_direction, double begin, double end,
