@@ -6,6 +6,7 @@
 #define Extinction vec3
 Extinction to_extinction(vec3 v) { return v; }
 float largest(Extinction v) { return max(v.r, max(v.g, v.b)); }
+float smallest(Extinction v) { return min(v.r, min(v.g, v.b)); }
 float average(Extinction v) { return dot(v, vec3(1.0 / 3.0)); }
 #else
 #define Extinction float

@@ -65,25 +65,36 @@ vec3 sun_scattering(Ray ray, Medium m, Extinction effective_length) {
 }
 #endif
 
-// Global media between the end of the march and the surface, or without end where there is none: ambient light and an
-// unshadowed sun. sun_front: the optical depth towards the sun at `begin`.
-void march_tail(Ray ray, float begin, float end, bool endless, vec3 ambient, Extinction sun_front, inout March march) {
-    float y = ray.origin.y + ray.direction.y * begin;
-    // What lies behind an optical depth of 16 cannot be seen: source and sun are taken from what lies before.
-    float thickest = largest(to_extinction(volumetrics.homogeneous_sigma_t.rgb));
-    float visible_end = min(end, begin + 16.0 / max(thickest, 1.0e-30));
-    Medium m = global_medium(y, ray.direction.y, visible_end - begin);
+// Light of global media under ambient light and an unshadowed sun over [begin, end]. sun_front: the optical depth
+// towards the sun at `begin`; becomes that at `end`.
+void add_global(Ray ray, float begin, float end, vec3 ambient, inout Extinction sun_front, inout March march) {
+    Medium m = global_medium(ray.origin.y + ray.direction.y * begin, ray.direction.y, end - begin);
     count_work(WORK_MEDIUM_SAMPLES, 1u);
-    Optics optics = medium_optics(m, visible_end - begin);
+    Optics optics = medium_optics(m, end - begin);
     vec3 gathered = (m.sigma_s * ambient + m.emission) * optics.effective_length;
 #if HAS_SUN
-    SunSegment sun = sun_segment(ray, begin, visible_end, optics, sun_front);
+    SunSegment sun = sun_segment(ray, begin, end, optics, sun_front);
     gathered += sun_scattering(ray, m, sun.effective_length);
 #endif
     march.radiance += march.transmittance * gathered;
-    vec3 depth = height_optical_depth(y, ray.direction.y, end - begin) +
+    march.transmittance *= optics.transmittance;
+}
+
+// Global media between the end of the march and the surface, or without end where there is none.
+void march_tail(Ray ray, float begin, float end, bool endless, vec3 ambient, Extinction sun_front, inout March march) {
+    // What lies behind an optical depth of 16 cannot be seen: source and sun are taken from what lies before.
+    Extinction sigma_t = to_extinction(volumetrics.homogeneous_sigma_t.rgb);
+    float visible_end = min(end, begin + 16.0 / max(largest(sigma_t), 1.0e-30));
+    Extinction before = march.transmittance;
+    add_global(ray, begin, visible_end, ambient, sun_front, march);
+#if CHROMATIC
+    // The clearest channel shows more.
+    float clearest_end = min(end, begin + 16.0 / max(smallest(sigma_t), 1.0e-30));
+    if (clearest_end > visible_end) add_global(ray, visible_end, clearest_end, ambient, sun_front, march);
+#endif
+    vec3 depth = height_optical_depth(ray.origin.y + ray.direction.y * begin, ray.direction.y, end - begin) +
                  volumetrics.homogeneous_sigma_t.rgb * (endless ? MAX_OPTICAL_DEPTH : end - begin);
-    march.transmittance *= exp(-to_extinction(depth));
+    march.transmittance = before * exp(-to_extinction(depth));
 }
 
 #endif
