@@ -1,0 +1,97 @@
+#include "sample_game/bench/errors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "engine/core/flip.h"
+#include "engine/core/image_metrics.h"
+
+namespace tyndall::bench {
+namespace {
+
+/// The session draws the point as if it had just begun.
+void start(Session& session, const View& view, const Point& point) {
+    session.options.frame_index = 0;
+    if (point.configuration.history_frames == 0) return;
+    session.renderer->invalidate_history();
+    for (int i = 0; i < point.configuration.history_frames; ++i) session.draw(view, point.place->time);
+}
+
+double count_invalid(const Image& image, float max) {
+    return static_cast<double>(
+        std::ranges::count_if(image.pixels, [max](float v) { return !std::isfinite(v) || v < 0 || v > max; }));
+}
+
+std::vector<glm::vec3> switch_off(Scene& scene) {
+    std::vector<glm::vec3> intensities;
+    bool lamps = false;
+    for (const Light& light : scene.lights) {
+        intensities.push_back(light.intensity);
+        lamps |= light.type != LightType::sun && light.intensity != glm::vec3(0);
+    }
+    for (Light& light : scene.lights)
+        if (!lamps || light.type != LightType::sun) light.intensity = glm::vec3(0);
+    return intensities;
+}
+
+void switch_on(Scene& scene, const std::vector<glm::vec3>& intensities) {
+    for (std::size_t i = 0; i < intensities.size(); ++i) scene.lights[i].intensity = intensities[i];
+}
+
+}  // namespace
+
+Errors measure_errors(Session& session, const View& view, const Point& point, const GroundTruth& truth,
+                      bool display) {
+    start(session, view, point);
+    std::vector<std::string> layers{"scattering"};
+    if (display) layers.insert(layers.end(), {"transmittance", "color"});
+    const std::vector<Image> drawn = draw_layers(session, view, point.place->time, layers);
+    Errors errors;
+    errors.scattering = relative_rmse(drawn[0], truth.scattering);
+    errors.invalid = count_invalid(drawn[0], 65504.0f);
+    if (!display) return errors;
+    errors.transmittance = compare_images(drawn[1], truth.transmittance).rmse;
+    errors.invalid += count_invalid(drawn[1], 1.0f);
+    const bool finite = std::ranges::all_of(drawn[2].pixels, [](float v) { return std::isfinite(v); });
+    errors.flip =
+        finite ? mean_value(hdr_flip_error(drawn[2], truth.color)) : std::numeric_limits<double>::infinity();
+    return errors;
+}
+
+Motion measure_motion(Session& session, const View& view, const Point& point) {
+    constexpr int frames = 8;
+    const double time = point.place->time;
+    const auto draw = [&] { return draw_layers(session, view, time, {"scattering"}).front(); };
+    start(session, view, point);
+    Motion motion;
+    std::vector<Image> pictures{draw(), draw()};
+    const Image on = pictures.back();
+    const bool still = point.configuration.history_frames == 0 && pictures[0].pixels == on.pixels;
+    while (!still && pictures.size() < frames) pictures.push_back(draw());
+    if (!still) motion.flicker = flicker(pictures);
+
+    const std::vector<glm::vec3> intensities = switch_off(session.scene);
+    std::vector<Image> after{draw(), draw()};
+    if (!still || after[0].pixels != after[1].pixels) {
+        while (after.size() < 4) after.push_back(draw());
+        for (int i = 0; i < point.configuration.history_frames; ++i) session.draw(view, time);
+        const Image off = draw();
+        for (std::size_t i = 0; i < 3; ++i) motion.residual[i] = residual_light(after[(1u << i) - 1], on, off);
+    }
+    switch_on(session.scene, intensities);
+    return motion;
+}
+
+gl::WorkCounts measure_work(Session& session, const View& view, const Point& point) {
+    session.options.count_work = true;
+    session.draw(view, point.place->time);
+    session.options.count_work = false;
+    gl::WorkCounts sum{};
+    for (const auto& [pass, counts] : session.renderer->work())
+        if (pass.starts_with("volumetrics/"))
+            for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += counts[i];
+    return sum;
+}
+
+}  // namespace tyndall::bench

@@ -1,0 +1,92 @@
+#include "sample_game/bench/ground_truth.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstdio>
+#include <vector>
+
+#include "engine/core/error.h"
+#include "engine/core/files.h"
+#include "reference/reference.h"
+#include "sample_game/bench/machine.h"
+#include "sample_game/progress.h"
+
+namespace tyndall::bench {
+namespace {
+
+const std::vector<std::string> layers{"color", "scattering", "transmittance"};
+
+std::array<Image*, 3> images(GroundTruth& truth) {
+    return {&truth.color, &truth.scattering, &truth.transmittance};
+}
+
+GroundTruth from_cpu(const Session& session, const View& view, const Point& point) {
+    reference::Settings settings;
+    settings.ambient = session.options.render.ambient;
+    const reference::Reference integrator(session.scene, settings);
+    Progress progress("reference of " + point.place->name + ", row", point.size.y);
+    reference::Picture picture =
+        reference::render(integrator, view, point.size, 1, 0, [&](int, int) { progress.step(); });
+    return {std::move(picture.color), std::move(picture.scattering), std::move(picture.transmittance)};
+}
+
+GroundTruth from_gpu(Session& session, const View& view, const Point& point) {
+    session.settings.reset_to_defaults();
+    session.settings.set("technique", "reference");
+    session.size = point.size;
+    session.options.frame_index = 0;
+    std::vector<Image> drawn = draw_layers(session, view, point.place->time, layers);
+    return {std::move(drawn[0]), std::move(drawn[1]), std::move(drawn[2])};
+}
+
+}  // namespace
+
+std::vector<Image> draw_layers(Session& session, const View& view, double time,
+                               const std::vector<std::string>& names) {
+    session.options.layer = names.front();
+    session.options.more_layers = {names.begin() + 1, names.end()};
+    session.draw(view, time);
+    std::vector<Image> drawn{session.renderer->read_layer()};
+    for (const std::string& name : session.options.more_layers) drawn.push_back(session.renderer->read_layer(name));
+    session.options.layer = "color";
+    session.options.more_layers.clear();
+    return drawn;
+}
+
+std::string GroundTruths::stem(Session& session, const Point& point) const {
+    Digest digest;
+    digest.add_file(session.scene.path);
+    digest.add(fmt::format("{} {}", point.place->camera, point.place->time));
+    if (kind_ == TruthKind::gpu) {
+        digest.add(session.context->capabilities().renderer);
+        digest.add(program_version());
+    }
+    return fmt::format("{}-{}-{}", point.subject(), kind_ == TruthKind::cpu ? "cpu" : "gpu",
+                       digest.hex().substr(0, 8));
+}
+
+GroundTruth GroundTruths::get(Session& session, const View& view, const Point& point) const {
+    const std::string name = stem(session, point);
+    std::vector<std::filesystem::path> paths;
+    for (const std::string& layer : layers) paths.push_back(folder_ / (name + "-" + layer + ".exr"));
+    GroundTruth truth;
+    const std::array<Image*, 3> into = images(truth);
+    if (std::ranges::all_of(paths, [](const auto& path) { return std::filesystem::exists(path); })) {
+        for (std::size_t i = 0; i < paths.size(); ++i) *into[i] = read_image(paths[i], 3);
+        return truth;
+    }
+    std::error_code failure;
+    std::filesystem::create_directories(folder_, failure);
+    if (failure) throw Error(fmt::format("{}: cannot make the folder, {}", folder_.string(), failure.message()));
+    const auto start = std::chrono::steady_clock::now();
+    truth = kind_ == TruthKind::cpu ? from_cpu(session, view, point) : from_gpu(session, view, point);
+    for (std::size_t i = 0; i < paths.size(); ++i) write_image(paths[i], *into[i]);
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+    fmt::print(stderr, "ground truth of {}: {:.1f} s\n", point.subject(), took.count());
+    return truth;
+}
+
+}  // namespace tyndall::bench

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "engine/core/image.h"
+#include "sample_game/bench/suites.h"
+#include "sample_game/session.h"
+
+namespace tyndall::bench {
+
+enum class TruthKind { cpu, gpu };  ///< `tyndall reference`, or the technique `reference`
+
+struct GroundTruth {
+    Image color, scattering, transmittance;  ///< linear, 3 channels
+};
+
+/// Ground truths as .exr files in a folder, made once. A file's name tells the scene's content, place, size and
+/// kind, and for the GPU's the driver and its shaders, so that what has changed is made again.
+class GroundTruths {
+  public:
+    GroundTruths(std::filesystem::path folder, TruthKind kind) : folder_(std::move(folder)), kind_(kind) {}
+    /// `session` holds the point's scene as posed. Throws Error.
+    [[nodiscard]] GroundTruth get(Session& session, const View& view, const Point& point) const;
+
+  private:
+    [[nodiscard]] std::string stem(Session& session, const Point& point) const;
+    std::filesystem::path folder_;
+    TruthKind kind_;
+};
+
+/// Layers of one frame, in the order of `layers`.
+[[nodiscard]] std::vector<Image> draw_layers(Session& session, const View& view, double time,
+                                             const std::vector<std::string>& layers);
+
+}  // namespace tyndall::bench

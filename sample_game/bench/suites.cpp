@@ -1,0 +1,259 @@
+#include "sample_game/bench/suites.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+
+#include "engine/core/error.h"
+#include "sample_game/bench/techniques.h"
+
+namespace tyndall::bench {
+namespace {
+
+using Places = std::vector<Place>;
+
+/// What a suite is made of: its places, and the groups each gives.
+struct Definition {
+    std::string name;
+    Suite frame;  ///< all but the groups
+    std::function<Places()> places;
+    std::function<std::vector<Group>(const Place&, const PlaceFacts&, const SuiteRequest&)> groups;
+};
+
+Places joined(std::initializer_list<Places> lists) {
+    Places all;
+    for (const Places& list : lists) all.insert(all.end(), list.begin(), list.end());
+    return all;
+}
+
+Places named(std::initializer_list<const char*> names) {
+    Places all;
+    for (const char* name : names) all.push_back(place(name));
+    return all;
+}
+
+/// The technique with settings beyond its defaults, one of them a count that buys accuracy.
+Configuration with_count(const std::string& family_name, std::vector<std::string> settings, const std::string& key,
+                         double count, const std::string& curve = "") {
+    Configuration c;
+    c.family = family_name;
+    const Family& row = family(family_name);
+    c.settings = {"technique=" + row.technique};
+    c.settings.insert(c.settings.end(), row.settings.begin(), row.settings.end());
+    c.settings.insert(c.settings.end(), settings.begin(), settings.end());
+    c.settings.push_back(fmt::format("{}={}", key, count));
+    c.label = fmt::format("{}", count);
+    c.curve = curve;
+    c.history_frames = row.history_frames;
+    c.weight = 4 + (key == "steps" ? count : 8);
+    return c;
+}
+
+Point point(const Place& place, glm::ivec2 size, Configuration c, const std::string& variable, double value) {
+    Point p;
+    p.place = &bench::place(place.name);
+    p.size = size;
+    p.configuration = std::move(c);
+    p.variable = variable;
+    p.value = value;
+    return p;
+}
+
+double label_value(const Configuration& c) {
+    return c.label.empty() ? 0 : std::stod(c.label);
+}
+
+/// Every family in every combination of its axes.
+std::vector<Group> front_groups(const Place& place, const PlaceFacts& facts, const SuiteRequest& request) {
+    Group group{place.name, {}, facts};
+    for (const Family& f : families()) {
+        if (request.against_gpu && f.technique == "reference") continue;
+        for (const Configuration& c : expand(f, facts))
+            group.points.push_back(point(place, request.size, c, f.cost_key, label_value(c)));
+    }
+    return {group};
+}
+
+/// Every family at its cheap, usual and dear end, other axes at their first value.
+std::vector<Group> stress_groups(const Place& place, const PlaceFacts& facts, const SuiteRequest& request) {
+    Group group = front_groups(place, facts, request).front();
+    std::erase_if(group.points, [](const Point& p) {
+        return !p.configuration.curve.empty() || (p.value != 0 && p.value != 2 && p.value != 8 && p.value != 32);
+    });
+    return {group};
+}
+
+const std::string standard = "march, Bayer, blur";
+
+std::vector<Group> passes_groups(const Place& place, const PlaceFacts& facts, const SuiteRequest& request) {
+    return {{place.name, {point(place, request.size, with_count(standard, {}, "steps", 8), "steps", 8)}, facts}};
+}
+
+std::vector<Group> smoke_groups(const Place& place, const PlaceFacts& facts, const SuiteRequest& request) {
+    Group group{place.name, {}, facts};
+    for (const char* name : {"march, undithered", "march, Bayer, blur"})
+        for (const int steps : {2, 8})
+            group.points.push_back(
+                point(place, request.size, with_count(name, {}, "steps", steps), "steps", steps));
+    return {group};
+}
+
+/// Undithered steps against eight dithered and blurred ones.
+std::vector<Group> headline_groups(const Place& place, const PlaceFacts& facts, const SuiteRequest& request) {
+    Group group{place.name, {}, facts, true};
+    group.points.push_back(point(place, request.size, with_count(standard, {}, "steps", 8), "steps", 8));
+    for (const int steps : {8, 11, 16, 23, 32, 45, 64, 91, 128, 181, 256, 362, 512})
+        group.points.push_back(
+            point(place, request.size, with_count("march, undithered", {}, "steps", steps), "steps", steps));
+    return {group};
+}
+
+std::vector<Group> convergence_groups(const Place& place, const PlaceFacts& facts, const SuiteRequest& request) {
+    Group group{place.name, {}, facts};
+    std::vector<std::string> lamp_rules{""};
+    if (facts.lamps_in_view > 0) lamp_rules = {"segment", "center"};
+    for (const std::string& rule : lamp_rules)
+        for (const char* name : {"march, undithered", "march, Bayer"})
+            for (int steps = 1; steps <= 512; steps *= 2) {
+                std::vector<std::string> settings{"stepping=uniform"};
+                if (!rule.empty()) settings.push_back("lamp_integration=" + rule);
+                group.points.push_back(
+                    point(place, request.size, with_count(name, settings, "steps", steps, rule), "steps", steps));
+            }
+    return {group};
+}
+
+/// One variable at a time from the same standard: eight Bayer-dithered steps with blur.
+std::vector<Group> scaling_groups(const Place& place, const PlaceFacts& facts, const SuiteRequest& request) {
+    std::vector<Group> groups;
+    const auto add = [&](const std::string& variable, const std::vector<Point>& points) {
+        groups.push_back({place.name + ", " + variable, points, facts});
+    };
+    const auto at = [&](const std::string& variable, double value) {
+        return point(place, request.size, with_count(standard, {}, "steps", 8), variable, value);
+    };
+    std::vector<Point> points;
+    for (const double factor : {0.25, 0.5, 1.0, 2.0, 4.0}) {
+        const glm::ivec2 size = glm::max(glm::ivec2(glm::dvec2(request.size) * factor + 0.5), glm::ivec2(1));
+        points.push_back(
+            point(place, size, with_count(standard, {}, "steps", 8), "pixels", double(size.x) * size.y));
+        points.back().configuration.weight *= factor * factor;
+    }
+    add("pixels", points);
+    points.clear();
+    for (const int steps : {1, 2, 4, 8, 16, 32, 64, 128})
+        points.push_back(point(place, request.size, with_count(standard, {}, "steps", steps), "steps", steps));
+    add("steps", points);
+    points.clear();
+    for (int lamps = 1; facts.lamps_in_view > 0; lamps = std::min(2 * lamps, facts.lamps)) {
+        points.push_back(at("lamps", lamps));
+        points.back().edit.lamps = lamps;
+        if (lamps == facts.lamps) break;
+    }
+    if (!points.empty()) add("lamps", points);
+    if (place.name != "cube") return groups;
+    points.clear();
+    for (const int spheres : {1, 2, 4, 8, 16, 32, 64, 128}) {
+        points.push_back(at("media", spheres));
+        points.back().edit.spheres = spheres;
+    }
+    add("media", points);
+    points.clear();
+    for (const double factor : {0.25, 0.5, 1.0, 2.0}) {
+        const int x = int(160 * factor), y = int(90 * factor), z = int(64 * factor);
+        points.push_back(point(place, request.size,
+                               with_count(standard,
+                                          {fmt::format("froxels_x={}", x), fmt::format("froxels_y={}", y),
+                                           fmt::format("froxels_z={}", z)},
+                                          "steps", 8),
+                               "froxels", double(x) * y * z));
+    }
+    add("froxels", points);
+    return groups;
+}
+
+Suite frame(const std::string& title, bool times, bool errors, bool display) {
+    Suite s;
+    s.title = title;
+    s.times = times;
+    s.errors = errors;
+    s.display = display;
+    return s;
+}
+
+const std::vector<Definition>& definitions() {
+    static const std::vector<Definition> list{
+        {"front", frame("Error against time", true, true, true),
+         [] {
+             return joined({level_places(), scene_places()});
+         },
+         front_groups},
+        {"stress", frame("Scenes built to break numerics", true, true, true), torture_places, stress_groups},
+        {"scaling", frame("Cost against one variable at a time", true, false, false),
+         [] {
+             return named({"cube", "slats_sun", "lamps_open", "lamps_shadowed"});
+         },
+         scaling_groups},
+        {"passes", frame("Time of each pass", true, false, false), level_places, passes_groups},
+        {"headline", frame("Undithered steps that equal eight dithered ones", true, true, false), level_places,
+         headline_groups},
+        {"convergence", frame("Error against steps", false, true, false),
+         [] {
+             return named({"open_sun", "lamps_open", "lamps_shadowed", "slats_sun"});
+         },
+         convergence_groups},
+        {"smoke", frame("The benchmark itself, in seconds", true, true, true),
+         [] {
+             return named({"open_sun", "lamps_open"});
+         },
+         smoke_groups},
+    };
+    return list;
+}
+
+/// The suite's places that the request asks for, in the suite's order.
+Places chosen_places(const Definition& definition, const SuiteRequest& request) {
+    Places places = definition.places();
+    std::vector<std::string> names;
+    for (const Place& p : places) names.push_back(p.name);
+    for (const std::string& wanted : request.places)
+        if (std::ranges::find(names, wanted) == names.end())
+            throw UsageError(fmt::format("--scene {}: not in suite {}, which has {}", wanted, definition.name,
+                                         fmt::join(names, ", ")));
+    if (!request.places.empty())
+        std::erase_if(places, [&](const Place& p) {
+            return std::ranges::find(request.places, p.name) == request.places.end();
+        });
+    return places;
+}
+
+}  // namespace
+
+const std::vector<std::string>& suite_names() {
+    static const std::vector<std::string> names = [] {
+        std::vector<std::string> list;
+        for (const Definition& d : definitions()) list.push_back(d.name);
+        return list;
+    }();
+    return names;
+}
+
+Suite make_suite(const SuiteRequest& request) {
+    const auto definition = std::ranges::find(definitions(), request.name, &Definition::name);
+    if (definition == definitions().end())
+        throw UsageError(
+            fmt::format("--suite {}: expected one of {}", request.name, fmt::join(suite_names(), ", ")));
+    Suite suite = definition->frame;
+    suite.name = definition->name;
+    for (const Place& p : chosen_places(*definition, request)) {
+        const PlaceFacts facts = place_facts(p, float(request.size.x) / float(request.size.y));
+        for (Group& group : definition->groups(p, facts, request)) suite.groups.push_back(std::move(group));
+    }
+    return suite;
+}
+
+}  // namespace tyndall::bench

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <glm/glm.hpp>
+#include <string>
+#include <vector>
+
+#include "sample_game/bench/places.h"
+
+namespace tyndall::bench {
+
+/// A technique with settings. `family` names a row of the tables in techniques.h, which gives it its look on plots.
+struct Configuration {
+    std::string family;
+    std::vector<std::string> settings;  ///< key=value, beyond the defaults; `technique` first
+    std::string label;                  ///< short, at a point of a plot
+    std::string curve;                  ///< points of one family that a line joins: what all but the steps are
+    int history_frames = 0;             ///< frames until what it accumulates has settled
+    double weight = 1;                  ///< of a frame's cost against others of the place, for the time left only
+    [[nodiscard]] std::string name() const;  ///< family and settings, unique within a place
+};
+
+/// Changes to a scene that count something.
+struct SceneEdit {
+    int lamps = -1;    ///< keep the first so many; -1: all
+    int spheres = -1;  ///< replace the media by so many small spheres in view; -1: keep them
+};
+
+/// One thing to be measured.
+struct Point {
+    const Place* place = nullptr;
+    glm::ivec2 size{0};
+    SceneEdit edit;
+    std::string variable;  ///< what `value` counts: steps, pixels, lamps …
+    double value = 0;
+    Configuration configuration;
+    [[nodiscard]] std::string subject() const;  ///< place, size and edit: what shares one ground truth
+    [[nodiscard]] std::string key() const;      ///< unique within a suite
+};
+
+/// Points of one scene file, measured in turns.
+struct Group {
+    std::string name;
+    std::vector<Point> points;
+    PlaceFacts facts;
+    /// The first point's error is the aim: points behind the first with less error are left out.
+    bool stop_below_first = false;
+};
+
+struct Suite {
+    std::string name, title;
+    std::vector<Group> groups;
+    bool times = true;    ///< and work counters
+    bool errors = true;   ///< of scattering
+    bool display = true;  ///< and of transmittance and colour, flicker and lag
+};
+
+struct SuiteRequest {
+    std::string name;
+    glm::ivec2 size{0};
+    std::vector<std::string> places;  ///< only these; empty: all of the suite
+    bool against_gpu = false;         ///< the technique `reference` is the ground truth, and no competitor
+};
+[[nodiscard]] const std::vector<std::string>& suite_names();
+/// Loads the scenes' facts. Throws UsageError (unknown suite or place) or Error (a scene that does not load).
+[[nodiscard]] Suite make_suite(const SuiteRequest& request);
+
+}  // namespace tyndall::bench

@@ -1,0 +1,196 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "sample_game/bench/reports.h"
+
+namespace tyndall::bench {
+
+using nlohmann::json;
+
+namespace {
+
+std::string three(double value) {
+    return std::isfinite(value) ? fmt::format("{:.3g}", value) : "–";
+}
+
+std::string settings_text(const Configuration& c) {
+    return fmt::format("`{}`", fmt::join(c.settings, " "));
+}
+
+std::string method(const Suite& suite, const json& c) {
+    const auto text = [&](const char* key) { return c.value(key, json("?")).dump(); };
+    const auto bare = [&](const char* key) { return c.at(key).get<std::string>(); };
+    std::string md = fmt::format(
+        "# {}\n\nSuite `{}`, measured {}.\n\n    {}\n\n| | |\n|---|---|\n| driver | {}, {} |\n| processor | {} |\n"
+        "| program | {} |\n| size | {} |\n",
+        suite.title, suite.name, bare("date"), bare("command"), bare("driver"), bare("driver_version"),
+        bare("processor"), bare("version"), bare("size"));
+    if (suite.times)
+        md += fmt::format(
+            "| times | {}; median of up to {} frames in turns with all others, and interquartile range; after 10 s "
+            "of "
+            "timed frames two are enough |\n",
+            bare("timing"), text("repeats"));
+    if (suite.errors)
+        md +=
+            fmt::format("| ground truth | {} |\n",
+                        c.at("reference") == "cpu" ? "CPU: `tyndall reference`, one ray through each pixel's centre"
+                                                   : "GPU: technique `reference`, over the same shadow maps");
+    return md + "\n";
+}
+
+std::string picture(const std::map<std::string, std::string>& plots, const std::string& name) {
+    return plots.contains(name) ? fmt::format("![{0}](plots/{0}.svg)\n\n", name) : "";
+}
+
+struct Entry {
+    double time, spread, error, flip;
+    const Configuration* configuration;
+};
+
+/// The front, and the least error within round budgets.
+std::string front_tables(const std::vector<Entry>& entries) {
+    std::vector<glm::dvec2> points;
+    for (const Entry& e : entries) points.emplace_back(e.time, e.error);
+    const std::vector<std::size_t> front = pareto_front(points);
+    std::string md = "| time (ms) | spread | error | FLIP | family | settings |\n|---|---|---|---|---|---|\n";
+    for (const std::size_t i : front) {
+        const Entry& e = entries[i];
+        md += fmt::format("| {} | {} | {} | {} | {} | {} |\n", three(e.time), three(e.spread), three(e.error),
+                          three(e.flip), e.configuration->family, settings_text(*e.configuration));
+    }
+    if (front.empty()) return md + "\n";
+    md += "\n| budget (ms) | least error | family | settings |\n|---|---|---|---|\n";
+    for (double decade = -2; decade < 6; ++decade)
+        for (const double mantissa : {1.0, 2.0, 5.0}) {
+            const double budget = mantissa * std::pow(10.0, decade);
+            const Entry* best = nullptr;
+            for (const std::size_t i : front)
+                if (entries[i].time <= budget) best = &entries[i];
+            if (best == nullptr || budget > 2.5 * entries[front.back()].time) continue;
+            md += fmt::format("| {} | {} | {} | {} |\n", three(budget), three(best->error),
+                              best->configuration->family, settings_text(*best->configuration));
+        }
+    return md + "\n";
+}
+
+std::string motion_table(const std::vector<Row>& rows) {
+    std::string md;
+    for (const Row& row : rows) {
+        if (!row.measured->motion) continue;
+        const Motion& m = *row.measured->motion;
+        if (md.empty())
+            md =
+                "## Motion\n\nFlicker: mean change from frame to frame of a static camera over the mean, 8 frames. "
+                "Lag: part of a light that shows 1, 2 and 4 frames after it was switched off. Configurations "
+                "without "
+                "a history are measured once for each place.\n\n"
+                "| place | family | flicker | lag 1 | lag 2 | lag 4 |\n|---|---|---|---|---|---|\n";
+        md += fmt::format("| {} | {} | {} | {} | {} | {} |\n", row.point->place->name,
+                          row.point->configuration.family, three(m.flicker), three(m.residual[0]),
+                          three(m.residual[1]), three(m.residual[2]));
+    }
+    return md.empty() ? md : md + "\n";
+}
+
+std::string error_time_summary(const std::vector<Row>& rows, const std::map<std::string, std::string>& plots) {
+    std::string md;
+    const std::vector<Mean> average = means(rows);
+    if (plots.contains("overview")) {
+        std::vector<Entry> entries;
+        for (const Mean& m : average)
+            entries.push_back({m.time, std::nan(""), m.error, m.flip, &m.point->configuration});
+        md += fmt::format("## All places\n\nGeometric means over {} places.\n\n", place_names(rows).size()) +
+              picture(plots, "overview") + picture(plots, "overview_flip") + front_tables(entries);
+    }
+    for (const std::string& place : place_names(rows)) {
+        std::vector<Entry> entries;
+        double invalid = 0;
+        for (const Row& row : of_place(rows, place)) {
+            if (!row.timed() || !row.compared()) continue;
+            entries.push_back({row.volumetrics.median, row.volumetrics.spread, row.measured->errors->scattering,
+                               row.measured->errors->flip, &row.point->configuration});
+            invalid += row.measured->errors->invalid;
+        }
+        md += "## " + place + "\n\n" + picture(plots, place) + front_tables(entries);
+        if (invalid > 0)
+            md +=
+                fmt::format("**{:.0f} values are not finite, negative, or a transmittance above 1.**\n\n", invalid);
+    }
+    return md + motion_table(rows);
+}
+
+std::string fit_summary(const Suite& suite, const std::vector<Row>& rows,
+                        const std::map<std::string, std::string>& plots) {
+    const double sign = suite.times ? 1 : -1;
+    std::string md = fmt::format(
+        "| place | line | over | from | to | {0} | scatter | {0}, upper half | from |\n"
+        "|---|---|---|---|---|---|---|---|---|\n",
+        suite.times ? "exponent" : "order");
+    for (const Fitted& line : fitted_lines(suite, rows))
+        md += fmt::format("| {} | {} | {} | {} | {} | {:.2f} | {} | {:.2f} | {} |\n", line.place,
+                          suite.times ? "time" : line.name, line.variable, three(line.all.first),
+                          three(line.all.last), sign * line.all.exponent, three(line.all.deviation),
+                          sign * line.end.exponent, three(line.end.first));
+    md += "\nLeast squares in logarithms; scatter is the root mean square distance from the fit in ln.\n\n";
+    for (const auto& [name, svg] : plots) md += picture(plots, name);
+    return md;
+}
+
+std::string headline_summary(const std::vector<Row>& rows, const std::map<std::string, std::string>& plots) {
+    std::string md =
+        picture(plots, "headline") +
+        "| place | error of 8 dithered | ms | undithered steps of the same error | ms | ratio of times |\n"
+        "|---|---|---|---|---|---|\n";
+    for (const std::string& place : place_names(rows)) {
+        const Headline h = headline(of_place(rows, place));
+        const std::string steps = std::isfinite(h.steps) ? fmt::format("{:.0f}", h.steps)
+                                                         : fmt::format("not within {:.0f} (least error {})",
+                                                                       h.most_steps, three(h.least_error));
+        md += fmt::format("| {} | {} | {} | {} | {} | {} |\n", place, three(h.error), three(h.time), steps,
+                          three(h.steps_time), three(h.ratio()));
+    }
+    return md +
+           "\nDithered: Bayer 8×8 with bilateral blur. Steps and times between measured counts are interpolated "
+           "in logarithms.\n";
+}
+
+std::string pass_summary(const std::vector<Row>& rows, const std::map<std::string, std::string>& plots) {
+    std::vector<std::string> passes;
+    for (const Row& row : rows)
+        for (const auto& [pass, ms] : row.passes)
+            if (std::ranges::find(passes, pass) == passes.end()) passes.push_back(pass);
+    std::string md = picture(plots, "passes") + "| pass (ms) |";
+    for (const Row& row : rows) md += " " + row.point->place->name + " |";
+    md += "\n|---|";
+    for (std::size_t i = 0; i < rows.size(); ++i) md += "---|";
+    for (const std::string& pass : passes) {
+        md += "\n| " + pass + " |";
+        for (const Row& row : rows) {
+            const auto found = std::ranges::find(row.passes, pass, &std::pair<std::string, double>::first);
+            md += found == row.passes.end() ? " |" : " " + three(found->second) + " |";
+        }
+    }
+    md += "\n| **volumetrics** |";
+    for (const Row& row : rows) md += " " + three(row.volumetrics.median) + " |";
+    md += "\n| **frame** |";
+    for (const Row& row : rows) md += " " + three(row.frame.median) + " |";
+    return md + "\n";
+}
+
+}  // namespace
+
+std::string make_summary(const Suite& suite, const std::vector<Row>& rows, const json& conditions,
+                         const std::map<std::string, std::string>& plots) {
+    const std::string head = method(suite, conditions);
+    if (suite.name == "scaling" || suite.name == "convergence") return head + fit_summary(suite, rows, plots);
+    if (suite.name == "headline") return head + headline_summary(rows, plots);
+    if (suite.name == "passes") return head + pass_summary(rows, plots);
+    return head + error_time_summary(rows, plots);
+}
+
+}  // namespace tyndall::bench

@@ -1,0 +1,91 @@
+#include "sample_game/bench/techniques.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "engine/core/check.h"
+
+namespace tyndall::bench {
+namespace {
+
+/// Ray marching with one dither and one blur: one curve family of six.
+Family march(const std::string& name, const std::string& dither, const std::string& blur, const std::string& color,
+             Marker marker) {
+    return {name,
+            "ray_march",
+            {"dither=" + dither, "blur=" + blur},
+            {{"stepping", {"exponential", "uniform"}},
+             {"lamp_integration", {"segment", "center"}, true},
+             {"steps", {"2", "4", "8", "16", "32", "64"}}},
+            "steps",
+            color,
+            marker};
+}
+
+}  // namespace
+
+const std::vector<Family>& families() {
+    static const std::vector<Family> list{
+        march("march, undithered", "none", "none", "#9a9a9a", Marker::circle),
+        march("march, undithered, blur", "none", "bilateral", "#3d3d3d", Marker::circle),
+        march("march, white", "white", "none", "#f0a868", Marker::triangle),
+        march("march, white, blur", "white", "bilateral", "#c4500a", Marker::triangle),
+        march("march, Bayer", "bayer", "none", "#7db4e0", Marker::square),
+        march("march, Bayer, blur", "bayer", "bilateral", "#0b5fa5", Marker::square),
+        {"reference", "reference", {}, {}, "", "#009e73", Marker::star},
+    };
+    return list;
+}
+
+const Family& family(const std::string& name) {
+    const auto found = std::ranges::find(families(), name, &Family::name);
+    TYNDALL_CHECK(found != families().end());
+    return *found;
+}
+
+std::vector<Configuration> expand(const Family& family, const PlaceFacts& facts) {
+    Configuration base;
+    base.family = family.name;
+    base.settings = {"technique=" + family.technique};
+    base.settings.insert(base.settings.end(), family.settings.begin(), family.settings.end());
+    base.history_frames = family.history_frames;
+    std::vector<Configuration> all{base};
+    for (const Axis& axis : family.axes) {
+        if (axis.lamps_only && facts.lamps_in_view == 0) continue;
+        std::vector<Configuration> next;
+        for (const Configuration& before : all)
+            for (const std::string& value : axis.values) {
+                Configuration c = before;
+                c.settings.push_back(axis.key + "=" + value);
+                if (axis.key == family.cost_key) {
+                    c.label = value;
+                    c.weight = 4 + std::stod(value);
+                } else if (value != axis.values.front()) {
+                    c.curve += (c.curve.empty() ? "" : ", ") + value;
+                }
+                next.push_back(std::move(c));
+            }
+        all = std::move(next);
+    }
+    if (family.cost_key.empty()) all.front().weight = 1000;
+    return all;
+}
+
+std::string Configuration::name() const {
+    return fmt::format("{} [{}]", family, fmt::join(settings, " "));
+}
+
+std::string Point::subject() const {
+    std::string text = fmt::format("{}-{}x{}", place->name, size.x, size.y);
+    if (edit.lamps >= 0) text += fmt::format("-lamps{}", edit.lamps);
+    if (edit.spheres >= 0) text += fmt::format("-spheres{}", edit.spheres);
+    return text;
+}
+
+std::string Point::key() const {
+    return fmt::format("{} {}={} {}", subject(), variable, value, configuration.name());
+}
+
+}  // namespace tyndall::bench
