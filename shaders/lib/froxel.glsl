@@ -11,10 +11,17 @@ const int FROXEL_LINEAR = 0;  // view_depth = z_near + (z_far - z_near) w
 const int FROXEL_EXPONENTIAL =
     1;  // view_depth = z_near (z_far / z_near)^w, slices in proportion to their depth; z_near > 0
 
+const int FROXEL_LOGARITHMIC =
+    2;  // view_depth = z_near ((1 + z_far / z_near)^w - 1), from 0 on: w is the logarithm of 1 + view_depth / z_near,
+        // slices in proportion to their depth + z_near; z_near > 0 is where they turn from equal to proportional
+
 // Outside the volume's depths the result lies outside [0,1].
 float froxel_w_from_view_depth(int distribution, float view_depth, float z_near, float z_far) {
     if (distribution == FROXEL_EXPONENTIAL) {
         return log2(max(view_depth, 1.0e-6f * z_near) / z_near) / log2(z_far / z_near);
+    }
+    if (distribution == FROXEL_LOGARITHMIC) {
+        return log2(1.0f + max(view_depth, 0.0f) / z_near) / log2(1.0f + z_far / z_near);
     }
     return (view_depth - z_near) / (z_far - z_near);
 }
@@ -22,6 +29,9 @@ float froxel_w_from_view_depth(int distribution, float view_depth, float z_near,
 float froxel_view_depth_from_w(int distribution, float w, float z_near, float z_far) {
     if (distribution == FROXEL_EXPONENTIAL) {
         return z_near * exp2(w * log2(z_far / z_near));
+    }
+    if (distribution == FROXEL_LOGARITHMIC) {
+        return z_near * (exp2(w * log2(1.0f + z_far / z_near)) - 1.0f);
     }
     return mix(z_near, z_far, w);
 }

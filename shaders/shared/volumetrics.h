@@ -36,7 +36,7 @@ struct VolumetricsData {
     uvec4 counts;               // x height media, y local media, z steps, w side of the dither tile (px)
     uvec4 options;              // x PHASE_*, y 1: light is attenuated on its way in, z 1: ambient light, w FROXEL_*
     vec4 march;                 // x max distance (m), y first step / ray length, z each step / the one before
-    vec4 froxel_depths;         // x nearest, y farthest view depth (m) of the froxel volume
+    vec4 froxel_depths;         // x nearest, y farthest view depth (m) of the froxel volume; z jitter 0..1, < 0: none
     HeightMedium height[MAX_HEIGHT_MEDIA];
 };
 

@@ -24,6 +24,16 @@ float lamp_visibility(uint index, GpuLight light, vec3 point) {
     return light_visibility(index, light, point);
 }
 
+// A segment of the ray, and its medium apart from the height media.
+struct Segment {
+    float begin;  // distances along the ray, m
+    float end;
+    float offset;  // 0..1, where visibility is sampled: the share of the inverse square gathered before it
+    float anisotropy;
+    vec3 sigma_s;
+    vec3 sigma_t;
+};
+
 #if LAMPS == 1
 // Phase times incident illuminance of all lamps at a point [W sr^-1 m^-2 per unit of sigma_s].
 vec3 lamps_at(Ray ray, float t, float anisotropy) {
@@ -72,16 +82,6 @@ vec2 ray_in_cone(float A, float B, float h, float cos_outer) {
     if (a > 0.0) return A > 0.0 ? vec2(upper, FAR) : vec2(-FAR, lower);
     return A * 0.5 * (lower + upper) + B > 0.0 ? vec2(lower, upper) : vec2(0.0);
 }
-
-// A segment of the ray, and its medium apart from the height media.
-struct Segment {
-    float begin;  // distances along the ray, m
-    float end;
-    float offset;  // 0..1, where visibility is sampled: the share of the inverse square gathered before it
-    float anisotropy;
-    vec3 sigma_s;
-    vec3 sigma_t;
-};
 
 // The part of the segment that a lamp reaches, and the point of that part which is nearest to the lamp.
 struct Reach {

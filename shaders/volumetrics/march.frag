@@ -4,9 +4,7 @@
 // Global media, transmittances and the inverse square of lamps are integrated in closed form; only local media and
 // visibility are sampled, once a segment, at an offset that differs from pixel to pixel.
 #include "shaders/lib/froxel.glsl"
-#include "shaders/interface/shadows.glsl"
-#include "shaders/volumetrics/lamps.glsl"
-#include "shaders/volumetrics/segment.glsl"
+#include "shaders/volumetrics/segment_light.glsl"
 #include "shaders/lib/pack.glsl"
 
 layout(binding = 0) uniform sampler2D depth_texture;
@@ -66,23 +64,8 @@ void march_segment(Ray ray, float a, float b, float offset, inout Extinction sun
     constant_sigma_t += add_local_media(ray, a + offset * path_length, path_length, m, constant_sigma_s);
 
     Optics optics = medium_optics(m, path_length);
-    vec3 gathered = (m.sigma_s * ambient + m.emission) * optics.effective_length;
-
-#if HAS_SUN
-    SunSegment sun = sun_segment(ray, a, b, optics, sun_front);
-    float t = a + path_length * equal_transmittance(offset, sun.x);
-    count_work(WORK_SHADOW_LOOKUPS, 1u);
-    float visible = sun_visibility(ray.origin + ray.direction * t, t * ray.forward_cosine);
-    gathered += visible * sun_scattering(ray, m, sun.effective_length);
-#endif
-
-#if LAMPS == 1
-    gathered += lamps_at(ray, a + offset * path_length, m.anisotropy) * m.sigma_s * optics.effective_length;
-#elif LAMPS == 2
-    gathered += lamps_over_segment(ray, Segment(a, b, offset, m.anisotropy, constant_sigma_s, constant_sigma_t));
-#endif
-
-    march.radiance += march.transmittance * gathered;
+    Segment segment = Segment(a, b, offset, m.anisotropy, constant_sigma_s, constant_sigma_t);
+    march.radiance += march.transmittance * segment_light(ray, segment, m, optics, ambient, sun_front);
     march.transmittance *= optics.transmittance;
 }
 

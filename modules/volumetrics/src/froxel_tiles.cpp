@@ -43,13 +43,20 @@ ViewBounds view_bounds(const LocalMedium& medium, const Inputs& inputs) {
 }  // namespace
 
 FroxelGrid froxel_grid(const Inputs& inputs, const Settings& settings) {
-    const bool exponential = settings.froxel_distribution == DepthDistribution::exponential;
-    // Slices in proportion to their depth would crowd at a near plane of centimetres.
-    const float nearest = exponential ? std::max(inputs.znear, settings.froxel_far / 256) : inputs.znear;
-    return {.size = {settings.froxels_x, settings.froxels_y, settings.froxels_z},
-            .distribution = exponential ? glsl::FROXEL_EXPONENTIAL : glsl::FROXEL_LINEAR,
-            .nearest = nearest,
-            .farthest = std::max(settings.froxel_far, 2 * nearest)};
+    FroxelGrid grid{.size = {settings.froxels_x, settings.froxels_y, settings.froxels_z},
+                    .distribution = glsl::FROXEL_LINEAR,
+                    .nearest = inputs.znear,
+                    .farthest = settings.froxel_far};
+    if (settings.froxel_distribution == DepthDistribution::exponential) {
+        grid.distribution = glsl::FROXEL_EXPONENTIAL;
+        // Slices in proportion to their depth would crowd at a near plane of centimetres.
+        grid.nearest = std::max(inputs.znear, settings.froxel_far / 256);
+    } else if (settings.froxel_distribution == DepthDistribution::logarithmic) {
+        grid.distribution = glsl::FROXEL_LOGARITHMIC;
+        grid.nearest = settings.froxel_far / 32;
+    }
+    grid.farthest = std::max(settings.froxel_far, 2 * grid.nearest);
+    return grid;
 }
 
 IndexBox froxel_bounds(const LocalMedium& medium, const Inputs& inputs, const FroxelGrid& grid) {

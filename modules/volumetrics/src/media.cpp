@@ -112,7 +112,10 @@ void add_local(const Inputs& inputs, const Settings& settings, FrameMedia& media
         add_local_in_view(inputs, grid, media);
     media.data.counts.y = static_cast<unsigned>(media.local.size());
     media.data.options.w = static_cast<unsigned>(grid.distribution);
-    media.data.froxel_depths = {grid.nearest, grid.farthest, 0, 0};
+    // R1 sequence over the frames (Roberts 2018): multiples of the golden ratio.
+    const double phase = inputs.frame_index * 0.6180339887498949;
+    const float jitter = settings.froxel_jitter ? static_cast<float>(phase - std::floor(phase)) : -1.0F;
+    media.data.froxel_depths = {grid.nearest, grid.farthest, jitter, 0};
 }
 
 /// Segment i of N has the length first * ratio^i of the ray, which sums to 1; the last is ratio^(N-1) = e^strength

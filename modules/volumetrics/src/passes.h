@@ -24,6 +24,9 @@ struct PassResources {
                                            const Settings& settings, const FrameMedia& media);
 [[nodiscard]] Outputs add_march(PassList& passes, const PassResources& resources, const Inputs& inputs,
                                 const Settings& settings, const FrameMedia& media, const FroxelMedia& froxels);
+/// Light and transmittance of froxels, interpolated at each pixel's depth; no blur follows.
+[[nodiscard]] Outputs add_froxel(PassList& passes, const PassResources& resources, const Inputs& inputs,
+                                 const Settings& settings, const FrameMedia& media, const FroxelMedia& froxels);
 /// Brute force in RGBA32F; `transmittance` is always given.
 [[nodiscard]] Outputs add_reference(PassList& passes, PassResources& resources, const Inputs& inputs,
                                     const Settings& settings, const FrameMedia& media);

@@ -72,23 +72,30 @@ const SettingsTable& settings_table() {
                 0, 100)
             .integer(&S::froxels_x,
                      {"froxels_x", "Froxels across",
-                      "Horizontal resolution of the volume of local media; memory and "
-                      "injection time grow in proportion."},
+                      "Columns of froxels over the width: local media, and all light of the technique froxel; "
+                      "memory and time grow in proportion."},
                      8, 512, Effect::resource)
-            .integer(&S::froxels_y,
-                     {"froxels_y", "Froxels up", "Vertical resolution of the volume of local media."}, 8, 512,
+            .integer(&S::froxels_y, {"froxels_y", "Froxels up", "Columns of froxels over the height."}, 8, 512,
                      Effect::resource)
-            .integer(&S::froxels_z, {"froxels_z", "Froxel slices", "Depth slices of the volume of local media."}, 8,
-                     256, Effect::resource)
+            .integer(&S::froxels_z, {"froxels_z", "Froxel slices", "Slices of each column in view depth."}, 8, 256,
+                     Effect::resource)
             .real(&S::froxel_far,
                   {"froxel_far", "Froxel far distance",
-                   "View depth where the volume of local media ends; behind it there are none.", "m"},
+                   "View depth where the froxels end; behind it there are no local media, and in the technique "
+                   "froxel neither lamps nor shadows.",
+                   "m"},
                   4, 4096, Scale::logarithmic)
-            .choice(&S::froxel_distribution,
-                    {"froxel_distribution", "Froxel distribution",
-                     "Slices of equal thickness from the near plane, or in proportion to their depth from 1/256 of "
-                     "the far distance on."},
-                    {"linear", "exponential"}, Effect::uniform)
+            .choice(
+                &S::froxel_distribution,
+                {"froxel_distribution", "Froxel distribution",
+                 "Slices of equal thickness; in proportion to their depth, from 1/256 of the far distance on; or "
+                 "logarithmic, in between: equal near the eye, in proportion to depth far from it."},
+                {"linear", "exponential", "logarithmic"}, Effect::uniform)
+            .boolean(&S::froxel_jitter,
+                     {"froxel_jitter", "Froxel jitter",
+                      "Technique froxel: visibility is sampled at another place of each froxel, column and frame; "
+                      "noise instead of bands."},
+                     Effect::uniform)
             .integer(&S::reference_steps,
                      {"reference_steps", "Reference steps",
                       "Samples per ray of the technique reference, where its error falls in proportion; taken as a "
@@ -109,7 +116,7 @@ const SettingsTable& settings_table() {
 }
 
 const std::vector<std::string>& technique_names() {
-    static const std::vector<std::string> names{"off", "ray_march", "reference"};
+    static const std::vector<std::string> names{"off", "ray_march", "froxel", "reference"};
     return names;
 }
 

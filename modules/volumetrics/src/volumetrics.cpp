@@ -113,6 +113,11 @@ Outputs Volumetrics::add_passes(PassList& passes, const Inputs& inputs, const Se
         passes.skip(inject_pass, "no local medium in view");
     else
         froxels = add_inject_media(passes, impl_->resources, inputs, settings, media);
+    if (settings.technique == Technique::froxel) {
+        for (const char* name : {march_pass, blur_passes[0], blur_passes[1]})
+            passes.skip(name, "technique is froxel");
+        return add_froxel(passes, impl_->resources, inputs, settings, media, froxels);
+    }
     Outputs outputs = add_march(passes, impl_->resources, inputs, settings, media, froxels);
     if (settings.blur != Blur::none) return add_blur(passes, impl_->resources, inputs, settings, outputs);
     for (const char* name : blur_passes) passes.skip(name, "blur is none");

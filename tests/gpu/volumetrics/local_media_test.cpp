@@ -9,7 +9,9 @@
 namespace tyndall::test {
 namespace {
 
-class VolumetricsLocalMedia : public GlTest {
+using volumetrics::Technique;
+
+class VolumetricsLocalMedia : public GlTest, public testing::WithParamInterface<Technique> {
   protected:
     VolumetricsLocalMedia() {
         host.size = {16, 16};
@@ -20,6 +22,7 @@ class VolumetricsLocalMedia : public GlTest {
 
     static Settings fine_settings() {
         Settings settings = plain_settings(256);
+        settings.technique = GetParam();
         settings.froxels_x = settings.froxels_y = 96;
         settings.froxels_z = 192;
         settings.froxel_far = 40;
@@ -36,7 +39,12 @@ class VolumetricsLocalMedia : public GlTest {
     }
 };
 
-TEST_F(VolumetricsLocalMedia, SphereHasTheOpticalDepthOfItsShape) {
+INSTANTIATE_TEST_SUITE_P(Techniques, VolumetricsLocalMedia,
+                         testing::Values(Technique::ray_march, Technique::froxel), [](const auto& info) {
+                             return volumetrics::technique_names().at(static_cast<std::size_t>(info.param));
+                         });
+
+TEST_P(VolumetricsLocalMedia, SphereHasTheOpticalDepthOfItsShape) {
     for (const auto distribution :
          {volumetrics::DepthDistribution::linear, volumetrics::DepthDistribution::exponential}) {
         for (const float softness : {0.0F, 1.0F}) {
@@ -59,7 +67,7 @@ TEST_F(VolumetricsLocalMedia, SphereHasTheOpticalDepthOfItsShape) {
     }
 }
 
-TEST_F(VolumetricsLocalMedia, MediaAddAndAnisotropyIsAveragedByScattering) {
+TEST_P(VolumetricsLocalMedia, MediaAddAndAnisotropyIsAveragedByScattering) {
     host.has_sun = true;
     host.sun_direction = {0, 0, 1};  // straight into the eye
     host.sun_illuminance = glm::vec3(1000);
@@ -76,7 +84,7 @@ TEST_F(VolumetricsLocalMedia, MediaAddAndAnisotropyIsAveragedByScattering) {
     EXPECT_NEAR(frame.scattering.at(0, 0)[0], expected, 0.02 * expected);
 }
 
-TEST_F(VolumetricsLocalMedia, LocalAndGlobalMediaAdd) {
+TEST_P(VolumetricsLocalMedia, LocalAndGlobalMediaAdd) {
     host.ambient = glm::vec3(1);
     host.global = {{.sigma_s = glm::vec3(0.02F), .anisotropy = 0.5F}};
     host.local = {
@@ -87,7 +95,7 @@ TEST_F(VolumetricsLocalMedia, LocalAndGlobalMediaAdd) {
     EXPECT_NEAR(frame.scattering.at(0, 0)[0], 5.0 / 6 * -std::expm1(-0.06 * 20), 2e-3);
 }
 
-TEST_F(VolumetricsLocalMedia, EmissionIsSummed) {
+TEST_P(VolumetricsLocalMedia, EmissionIsSummed) {
     host.size = {1, 1};
     host.local = {{.box = true, .half_extent = glm::vec3(100), .emission = {0.1F, 0.2F, 0.3F}},
                   {.box = true, .half_extent = glm::vec3(100), .emission = {0.3F, 0.2F, 0.1F}}};
@@ -96,7 +104,7 @@ TEST_F(VolumetricsLocalMedia, EmissionIsSummed) {
     EXPECT_EQ(frame.transmittance.at(0, 0)[0], 1);
 }
 
-TEST_F(VolumetricsLocalMedia, NothingIsLeftBehindTheFroxelVolume) {
+TEST_P(VolumetricsLocalMedia, NothingIsLeftBehindTheFroxelVolume) {
     host.size = {1, 1};
     host.view_depth = [](int, int) { return 100.0F; };
     host.local = {{.box = true, .half_extent = glm::vec3(1000), .sigma_a = glm::vec3(0.05F)}};
@@ -106,7 +114,7 @@ TEST_F(VolumetricsLocalMedia, NothingIsLeftBehindTheFroxelVolume) {
 }
 
 // Which media a tile holds must not show: every medium of many gives what it gives alone.
-TEST_F(VolumetricsLocalMedia, TilesLoseNoMedium) {
+TEST_P(VolumetricsLocalMedia, TilesLoseNoMedium) {
     host.view_depth = [](int, int) { return 60.0F; };
     Settings settings = fine_settings();
     settings.steps = 64;
@@ -140,7 +148,7 @@ TEST_F(VolumetricsLocalMedia, TilesLoseNoMedium) {
     EXPECT_GT(thickest, 0.5);
 }
 
-TEST_F(VolumetricsLocalMedia, MediaOutOfViewCostNothing) {
+TEST_P(VolumetricsLocalMedia, MediaOutOfViewCostNothing) {
     host.local = {{.center = {0, 0, 30}, .sigma_a = glm::vec3(1)},
                   {.center = {100, 0, -20}, .sigma_a = glm::vec3(1)},
                   {.center = {0, 0, -500}, .sigma_a = glm::vec3(1)}};

@@ -4,13 +4,13 @@
 
 namespace tyndall::volumetrics {
 
-enum class Technique { off, ray_march, reference };
+enum class Technique { off, ray_march, froxel, reference };
 enum class LampIntegration { center, segment };
 enum class Stepping { uniform, exponential };
 enum class Dither { none, white, bayer };
 enum class Blur { none, gaussian, bilateral };
 enum class PhaseFunction { henyey_greenstein, schlick };
-enum class DepthDistribution { linear, exponential };
+enum class DepthDistribution { linear, exponential, logarithmic };
 
 /// Everything a person can choose. Ranges, units and help: `settings_table()`.
 struct Settings {
@@ -30,6 +30,7 @@ struct Settings {
     int froxels_x = 160, froxels_y = 90, froxels_z = 64;
     float froxel_far = 128;
     DepthDistribution froxel_distribution = DepthDistribution::exponential;
+    bool froxel_jitter = false;
     int reference_steps = 1024;
     int reference_lamp_samples = 16;
     int reference_light_steps = 16;

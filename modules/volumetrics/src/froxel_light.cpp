@@ -1,0 +1,71 @@
+#include "froxel_passes.h"
+#include "shaders/shared/bindings.h"
+
+namespace tyndall::volumetrics {
+namespace {
+
+const ProgramDesc program{.name = "volumetrics/froxel_light",
+                          .stages = {{GL_COMPUTE_SHADER, "shaders/volumetrics/froxel_light.comp"}},
+                          .axes = {{"HEIGHT_MEDIA", {0, 1, MAX_HEIGHT_MEDIA}},
+                                   {"LOCAL_MEDIA", {0, 1}},
+                                   {"HAS_SUN", {0, 1}},
+                                   {"LAMPS", {0, 1, 2}},  // 1 + LampIntegration
+                                   {"CHROMATIC", {0, 1}},
+                                   {"COUNT_WORK", {0, 1}}},
+                          .valid = {}};
+const ProgramRegistry::Registration registration(program);
+
+/// RUN of froxel_light.comp, and its group size.
+constexpr int run = 8, group_side = 16;
+
+}  // namespace
+
+TextureRef add_froxel_light(PassList& passes, const PassResources& resources, const Inputs& inputs,
+                            const Settings& settings, const FrameMedia& media, const FroxelMedia& froxels,
+                            TextureRef columns) {
+    const glm::ivec3 size{settings.froxels_x, settings.froxels_y, settings.froxels_z};
+    TextureRef radiance =
+        passes.create("volumetrics/froxel_radiance",
+                      {.kind = gl::TextureKind::d3, .format = GL_RGBA16F, .size = size, .levels = 1});
+    const bool local = !media.local.empty();
+    const int lamps = 1 + static_cast<int>(settings.lamp_integration);
+    const gl::Program& shader = resources.shaders.get(program, {{"HEIGHT_MEDIA", height_media_axis(media)},
+                                                                {"LOCAL_MEDIA", local},
+                                                                {"HAS_SUN", inputs.has_sun},
+                                                                {"LAMPS", inputs.has_lamps ? lamps : 0},
+                                                                {"CHROMATIC", media.chromatic},
+                                                                {"COUNT_WORK", inputs.count_work}});
+    const bool lit = inputs.has_sun || inputs.has_lamps || inputs.has_ambient;
+    passes.add(
+        "volumetrics/froxel_light",
+        [&](PassBuilder& builder) {
+            builder.sample(columns);
+            builder.sample(froxels.scattering);
+            builder.sample(froxels.extinction);
+            builder.sample(froxels.emission);
+            if (lit) {
+                for (TextureRef texture : inputs.light_textures) builder.sample(texture);
+                for (BufferRef buffer : inputs.light_buffers) builder.read(buffer);
+            }
+            radiance = builder.storage_write(radiance);
+        },
+        [froxels, columns, radiance, bind_lighting = lit ? inputs.bind_lighting : nullptr, &shader, &resources,
+         local, emits = media.local_emission,
+         groups = glm::uvec3((size + glm::ivec3(group_side, group_side, run) - 1) /
+                             glm::ivec3(group_side, group_side, run))](const PassContext& context) {
+            const auto texture = [&](TextureRef ref) { return ref ? context.texture(ref) : gl::TextureView(); };
+            if (bind_lighting) bind_lighting();
+            const BoundTextures bound{{texture(columns), resources.nearest},
+                                      {texture(froxels.scattering), resources.nearest},
+                                      {texture(froxels.extinction), resources.nearest},
+                                      {texture(emits ? froxels.emission : froxels.scattering), resources.nearest}};
+            glBindImageTexture(0, context.texture(radiance).id, 0, GL_TRUE, 0, GL_WRITE_ONLY, GL_RGBA16F);
+            resources.uniforms.bind(GL_UNIFORM_BUFFER, BINDING_VOLUMETRICS);
+            if (local) shader.set("local_emission", emits ? 1 : 0);
+            shader.use();
+            glDispatchCompute(groups.x, groups.y, groups.z);
+        });
+    return radiance;
+}
+
+}  // namespace tyndall::volumetrics

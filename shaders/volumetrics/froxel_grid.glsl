@@ -1,0 +1,47 @@
+// The froxel volume along a view ray. A column is a ray through the middle of a froxel of the screen's plane; it is cut
+// into `count` slices by view depth. Slice 0 begins at the eye, wherever the distribution does.
+#ifndef VOLUMETRICS_FROXEL_GRID_GLSL
+#define VOLUMETRICS_FROXEL_GRID_GLSL
+
+#include "shaders/lib/froxel.glsl"
+#include "shaders/volumetrics/extinction.glsl"
+#include "shaders/volumetrics/global_media.glsl"
+#include "shaders/volumetrics/ray.glsl"
+
+float froxel_far() { return volumetrics.froxel_depths.y; }
+
+// View depth where a slice begins; that of slice `count` is the end of the volume.
+float froxel_slice_begin(int slice, int count) {
+    if (slice <= 0) return 0.0;
+    if (slice >= count) return froxel_far();
+    return froxel_view_depth_from_w(int(volumetrics.options.w), float(slice) / float(count),
+                                    volumetrics.froxel_depths.x, volumetrics.froxel_depths.y);
+}
+
+// The slice at a view depth: the first before the volume, the last behind it.
+int froxel_slice(float view_depth, int count) {
+    float w = froxel_w_from_view_depth(int(volumetrics.options.w), min(view_depth, froxel_far()),
+                                       volumetrics.froxel_depths.x, volumetrics.froxel_depths.y);
+    return clamp(int(floor(w * float(count))), 0, count - 1);
+}
+
+// Optical depth of the global media between two distances along a ray.
+Extinction global_optical_depth(Ray ray, float begin, float end) {
+    float path_length = end - begin;
+    return to_extinction(min(volumetrics.homogeneous_sigma_t.rgb * path_length +
+                                 height_optical_depth(ray.origin.y + ray.direction.y * begin, ray.direction.y,
+                                                      path_length),
+                             MAX_OPTICAL_DEPTH));
+}
+
+// Of the light that a segment sends to its front, the share that its first part sends, given the optical depths of both:
+// (1 - exp(-part)) / (1 - exp(-whole)). Exact where the source is everywhere in proportion to the extinction. Without
+// extinction it is the share of the length.
+Extinction gathered_share(Extinction part, Extinction whole, float length_share) {
+    Extinction of_part = part * mean_transmittance(part, exp(-part));
+    Extinction of_whole = whole * mean_transmittance(whole, exp(-whole));
+    Extinction share = clamp(of_part / max(of_whole, 1.0e-20), 0.0, 1.0);
+    return mix(Extinction(length_share), share, step(1.0e-20, of_whole));
+}
+
+#endif
