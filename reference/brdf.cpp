@@ -44,10 +44,13 @@ double Brdf::distribution(double n_dot_h) const {
     return alpha2_ / (pi * std::pow((1 - cos2) + alpha2_ * cos2, 2));
 }
 
-/// Smith's masking and shadowing with correlated heights over 4 (n.l) (n.v), Heitz 2014: with Lambda(c) =
-/// (-1 + sqrt(1 + alpha² (1/c² - 1))) / 2 it is 1 / (1 + Lambda(n.l) + Lambda(n.v)).
+/// Smith's Lambda: microfacets hidden from a direction, per one that is seen.
+double Brdf::lambda(double cosine) const {
+    return 0.5 * (std::sqrt(1 + alpha2_ * (1 / (cosine * cosine) - 1)) - 1);
+}
+
+/// Smith's masking and shadowing with correlated heights, Heitz 2014, over 4 (n.l) (n.v).
 double Brdf::visibility(double n_dot_l) const {
-    const auto lambda = [&](double c) { return 0.5 * (std::sqrt(1 + alpha2_ * (1 / (c * c) - 1)) - 1); };
     return 1 / ((1 + lambda(n_dot_l) + lambda(n_dot_v_)) * 4 * n_dot_l * n_dot_v_);
 }
 
@@ -64,18 +67,27 @@ dvec3 Brdf::specular(dvec3 to_light) const {
     return fresnel(glm::dot(to_eye_, h)) * (distribution(glm::dot(normal_, h)) * visibility(n_dot_l));
 }
 
-// int D cos dh up to theta is u for tan² theta = alpha² u / (1 - u).
-dvec3 Brdf::half_vector(double u, double cos_azimuth, double sin_azimuth) const {
-    const double cos2 = (1 - u) / (1 - u + alpha2_ * u), sine = std::sqrt(1 - cos2);
-    return std::sqrt(cos2) * normal_ + sine * (cos_azimuth * tangent_ + sin_azimuth * bitangent_);
-}
+// Heitz 2018, "Sampling the GGX Distribution of Visible Normals": stretched by alpha the microfacets are a
+// hemisphere, whose visible ones are a disc seen askew. The weight is F G2 / G1 = F (1 + Lambda(v)) / (1 +
+// Lambda(v) + Lambda(l)).
+Brdf::Sample Brdf::sample(double u, double cos_azimuth, double sin_azimuth) const {
+    const double alpha = std::sqrt(alpha2_);
+    dvec3 v(glm::dot(to_eye_, tangent_), glm::dot(to_eye_, bitangent_), n_dot_v_);
+    v = glm::normalize(v);
+    const dvec3 stretched = glm::normalize(dvec3(alpha * v.x, alpha * v.y, v.z));
+    const double aside = std::hypot(stretched.x, stretched.y);
+    const dvec3 first = aside > 0 ? dvec3(-stretched.y, stretched.x, 0) / aside : dvec3(1, 0, 0);
+    const dvec3 second = glm::cross(stretched, first);
+    const double x = std::sqrt(u) * cos_azimuth, half = 0.5 * (1 + stretched.z);
+    const double y = (1 - half) * std::sqrt(1 - x * x) + half * std::sqrt(u) * sin_azimuth;
+    const dvec3 up = x * first + y * second + std::sqrt(std::max(1 - x * x - y * y, 0.0)) * stretched;
+    const dvec3 h = glm::normalize(dvec3(alpha * up.x, alpha * up.y, std::max(up.z, 0.0)));
 
-// The density of l is D (n.h) / (4 v.h); D cancels.
-dvec3 Brdf::specular_weight(dvec3 half_vector, dvec3 to_light) const {
-    const double n_dot_l = glm::dot(normal_, to_light), v_dot_h = glm::dot(to_eye_, half_vector);
-    const double n_dot_h = glm::dot(normal_, half_vector);
-    if (n_dot_l <= 0 || v_dot_h <= 0 || n_dot_h <= 0) return dvec3(0);
-    return fresnel(v_dot_h) * (visibility(n_dot_l) * 4 * v_dot_h * n_dot_l / n_dot_h);
+    const double v_dot_h = glm::dot(v, h);
+    const dvec3 l = 2 * v_dot_h * h - v;
+    Sample sample{l.x * tangent_ + l.y * bitangent_ + l.z * normal_, dvec3(0)};
+    if (l.z > 0) sample.weight = fresnel(v_dot_h) * ((1 + lambda(v.z)) / (1 + lambda(v.z) + lambda(l.z)));
+    return sample;
 }
 
 dvec3 reflected(const Surface& surface, dvec3 to_eye, dvec3 to_light) {

@@ -12,16 +12,18 @@ class Brdf {
     [[nodiscard]] dvec3 diffuse(dvec3 to_light) const;
     [[nodiscard]] dvec3 specular(dvec3 to_light) const;
 
-    /// The half vector at which a fraction u in [0, 1) of the microfacets' projected area lies nearer to the
-    /// normal, at an azimuth given by its cosine and sine.
-    [[nodiscard]] dvec3 half_vector(double u, double cos_azimuth, double sin_azimuth) const;
-    /// specular * cosine over the density of the light's direction, if `half_vector` is drawn with u and azimuth
-    /// uniform; 0 where the mirrored direction lies below the horizon.
-    [[nodiscard]] dvec3 specular_weight(dvec3 half_vector, dvec3 to_light) const;
+    /// A light's direction, drawn where the specular lobe is, with specular * cosine over its density: a weight of
+    /// at most 1, 0 where it lies below the horizon. By the microfacets that the eye sees; `u` and azimuth uniform
+    /// in [0, 1) and over the circle.
+    struct Sample {
+        dvec3 to_light, weight;
+    };
+    [[nodiscard]] Sample sample(double u, double cos_azimuth, double sin_azimuth) const;
 
   private:
     [[nodiscard]] dvec3 fresnel(double v_dot_h) const;
     [[nodiscard]] double distribution(double n_dot_h) const;
+    [[nodiscard]] double lambda(double cosine) const;
     [[nodiscard]] double visibility(double n_dot_l) const;
 
     dvec3 normal_, tangent_, bitangent_, to_eye_;

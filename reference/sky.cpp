@@ -20,7 +20,7 @@ constexpr glm::dvec3 luminance(0.2126, 0.7152, 0.0722);
 /// Width of the disc's edge, in radii: sharp.
 constexpr float disc_edge = 1e-4f;
 
-/// u and azimuth of the half vectors that the lobe is sampled at.
+/// Where the specular lobe is sampled, as Brdf::sample takes it.
 struct LobeSample {
     double u, cosine, sine;
 };
@@ -42,7 +42,7 @@ Sky::Sky(const Scene& scene, double factor) : factor_(factor) {
     const Light& sun = scene.lights[*index];
     to_sun_ = glm::normalize(dvec3(scene.nodes[static_cast<std::size_t>(sun.node)].world[2]));
     illuminance_ = sun.intensity;
-    if (dark()) return;
+    if (dark() || factor == 0) return;  // the table is slow to fill
     const glm::vec3 to_sun(to_sun_);
     const auto lux = static_cast<float>(glm::dot(illuminance_, luminance));
     table_ = SkyTable([&](dvec3 d) { return dvec3(glsl::sky_radiance(glm::vec3(d), to_sun, lux)); });
@@ -69,15 +69,14 @@ dvec3 Sky::reflected(const Surface& surface, dvec3 to_eye) const {
     static const std::array<LobeSample, 256> samples = lobe_samples();
     const Brdf brdf(surface, to_eye);
     dvec3 diffuse(0), specular(0);
-    if (surface.metallic < 1)
-        for (const SkyTable::Patch& patch : table_.patches()) {
-            const double cosine = glm::dot(surface.normal, patch.direction);
-            if (cosine > 0) diffuse += brdf.diffuse(patch.direction) * patch.flux * cosine;
-        }
+    for (const SkyTable::Patch& patch : table_.patches()) {
+        if (surface.metallic >= 1) break;
+        const double cosine = glm::dot(surface.normal, patch.direction);
+        if (cosine > 0) diffuse += brdf.diffuse(patch.direction) * patch.flux * cosine;
+    }
     for (const LobeSample& s : samples) {
-        const dvec3 h = brdf.half_vector(s.u, s.cosine, s.sine);
-        const dvec3 to_light = 2 * glm::dot(to_eye, h) * h - to_eye;
-        specular += brdf.specular_weight(h, to_light) * table_.at(to_light);
+        const auto [to_light, weight] = brdf.sample(s.u, s.cosine, s.sine);
+        specular += weight * table_.at(to_light);
     }
     return factor_ * surface.occlusion * (diffuse + specular / static_cast<double>(samples.size()));
 }

@@ -8,15 +8,19 @@ namespace tyndall::reference {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr int rows = 96, columns = 192;           // of each half
+constexpr int rows = 72, columns = 144;           // of each half
 constexpr int patch_rows = 6, patch_columns = 8;  // cells of a patch
-/// Sine of the elevation at which the sky model's eye, 300 m above a ground of radius 6360 km, sees the horizon.
-const double horizon = -std::sqrt(1 - std::pow(6360 / 6360.3, 2));
+/// Elevation (rad) at which the sky model's eye, 300 m above a ground of radius 6360 km, sees the horizon.
+const double horizon = -std::acos(6360 / 6360.3);
+
+/// Of a half: from the horizon to the zenith or the nadir, rad.
+double span(bool above) {
+    return (above ? 0.5 : -0.5) * pi - horizon;
+}
 
 /// Sine of the elevation at `row` (0: horizon, rows: nadir or zenith). Its steps are solid angles.
 double height(bool above, double row) {
-    const double s = row / rows, far = above ? 1 : -1;
-    return horizon + (far - horizon) * s * s;
+    return std::sin(horizon + span(above) * std::pow(row / rows, 2));
 }
 
 dvec3 direction(double sine, double column) {
@@ -38,8 +42,7 @@ SkyTable::SkyTable(const std::function<dvec3(dvec3)>& radiance) : cells_(2 * row
     for (const bool above : {false, true})
         for (int row = 0; row < rows; ++row)
             for (int column = 0; column < columns; ++column)
-                cells_[cell(above, row, column)] =
-                    radiance(direction(0.5 * (height(above, row) + height(above, row + 1)), column + 0.5));
+                cells_[cell(above, row, column)] = radiance(direction(height(above, row + 0.5), column + 0.5));
 
     for (const bool above : {false, true})
         for (int row = 0; row < rows; row += patch_rows)
@@ -48,8 +51,7 @@ SkyTable::SkyTable(const std::function<dvec3(dvec3)>& radiance) : cells_(2 * row
                 for (int i = row; i < row + patch_rows; ++i)
                     for (int j = column; j < column + patch_columns; ++j) {
                         const double part = solid_angle(above, i);
-                        patch.direction +=
-                            part * direction(0.5 * (height(above, i) + height(above, i + 1)), j + 0.5);
+                        patch.direction += part * direction(height(above, i + 0.5), j + 0.5);
                         patch.flux += part * cells_[cell(above, i, j)];
                     }
                 patch.direction = glm::normalize(patch.direction);
@@ -59,8 +61,9 @@ SkyTable::SkyTable(const std::function<dvec3(dvec3)>& radiance) : cells_(2 * row
 
 dvec3 SkyTable::at(dvec3 unit_direction) const {
     if (cells_.empty()) return dvec3(0);
-    const bool above = unit_direction.y >= horizon;
-    const double share = (unit_direction.y - horizon) / ((above ? 1 : -1) - horizon);
+    const double elevation = std::asin(std::clamp(unit_direction.y, -1.0, 1.0));
+    const bool above = elevation >= horizon;
+    const double share = (elevation - horizon) / span(above);
     const double y = std::clamp(rows * std::sqrt(std::clamp(share, 0.0, 1.0)) - 0.5, 0.0, rows - 1.0);
     const double x = columns * (std::atan2(unit_direction.z, unit_direction.x) / (2 * pi) + 1) - 0.5;
     const int row = std::min(static_cast<int>(y), rows - 2), column = static_cast<int>(x);
