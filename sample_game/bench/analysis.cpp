@@ -32,7 +32,7 @@ MedianSpread median_spread(std::span<const double> values) {
     TYNDALL_CHECK(!values.empty());
     std::vector<double> sorted(values.begin(), values.end());
     std::ranges::sort(sorted);
-    return {quantile(sorted, 0.5), quantile(sorted, 0.75) - quantile(sorted, 0.25)};
+    return {quantile(sorted, 0.5), quantile(sorted, 0.75) - quantile(sorted, 0.25), sorted.front()};
 }
 
 std::vector<std::size_t> pareto_front(std::span<const glm::dvec2> points) {

@@ -7,9 +7,10 @@
 
 namespace tyndall::bench {
 
-/// Median and interquartile range, quartiles by linear interpolation between order statistics. Not of nothing.
+/// Median, interquartile range (quartiles by linear interpolation between order statistics) and least. Not of
+/// nothing.
 struct MedianSpread {
-    double median = 0, spread = 0;
+    double median = 0, spread = 0, least = 0;
 };
 [[nodiscard]] MedianSpread median_spread(std::span<const double> values);
 

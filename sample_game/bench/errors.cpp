@@ -49,7 +49,7 @@ Errors measure_errors(Session& session, const View& view, const Point& point, co
     const std::vector<Image> drawn = draw_layers(session, view, point.place->time, layers);
     Errors errors;
     errors.scattering = relative_rmse(drawn[0], truth.scattering);
-    errors.invalid = count_invalid(drawn[0], 65504.0f);
+    errors.invalid = count_invalid(drawn[0], std::numeric_limits<float>::max());
     if (!display) return errors;
     errors.transmittance = compare_images(drawn[1], truth.transmittance).rmse;
     errors.invalid += count_invalid(drawn[1], 1.0f);

@@ -39,6 +39,7 @@ Fields fields(const Suite& suite, const Row& row) {
     f.emplace_back("samples", m.times.size());
     add("volumetrics_ms", timed, row.volumetrics.median);
     add("volumetrics_iqr_ms", timed, row.volumetrics.spread);
+    add("volumetrics_least_ms", timed, row.volumetrics.least);
     add("frame_ms", timed, row.frame.median);
     add("frame_iqr_ms", timed, row.frame.spread);
     const Errors errors = m.errors.value_or(Errors{});

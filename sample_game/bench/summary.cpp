@@ -21,7 +21,16 @@ std::string settings_text(const Configuration& c) {
     return fmt::format("`{}`", fmt::join(c.settings, " "));
 }
 
-std::string method(const Suite& suite, const json& c) {
+/// How far the times of one configuration are apart, as a rule: tells a quiet machine from a busy one.
+std::string usual_spread(const std::vector<Row>& rows) {
+    std::vector<double> spreads;
+    for (const Row& row : rows)
+        if (row.timed() && row.volumetrics.median > 0)
+            spreads.push_back(row.volumetrics.spread / row.volumetrics.median);
+    return spreads.empty() ? "–" : fmt::format("{:.1f}%", 100 * median_spread(spreads).median);
+}
+
+std::string method(const Suite& suite, const std::vector<Row>& rows, const json& c) {
     const auto text = [&](const char* key) { return c.value(key, json("?")).dump(); };
     const auto bare = [&](const char* key) { return c.at(key).get<std::string>(); };
     std::string md = fmt::format(
@@ -31,10 +40,10 @@ std::string method(const Suite& suite, const json& c) {
         bare("processor"), bare("version"), bare("size"));
     if (suite.times)
         md += fmt::format(
-            "| times | {}; median of up to {} frames in turns with all others, and interquartile range; after 10 s "
-            "of "
-            "timed frames two are enough |\n",
-            bare("timing"), text("repeats"));
+            "| times | {}; median of up to {} frames in turns with all others, and interquartile range; after 5 s "
+            "of timed frames two are enough |\n| spread | {} of the median, in the median of all configurations "
+            "|\n",
+            bare("timing"), text("repeats"), usual_spread(rows));
     if (suite.errors)
         md +=
             fmt::format("| ground truth | {} |\n",
@@ -186,7 +195,7 @@ std::string pass_summary(const std::vector<Row>& rows, const std::map<std::strin
 
 std::string make_summary(const Suite& suite, const std::vector<Row>& rows, const json& conditions,
                          const std::map<std::string, std::string>& plots) {
-    const std::string head = method(suite, conditions);
+    const std::string head = method(suite, rows, conditions);
     if (suite.name == "scaling" || suite.name == "convergence") return head + fit_summary(suite, rows, plots);
     if (suite.name == "headline") return head + headline_summary(rows, plots);
     if (suite.name == "passes") return head + pass_summary(rows, plots);

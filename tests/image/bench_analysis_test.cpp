@@ -18,6 +18,7 @@ TEST(Median, OfOddAndEvenCountsAndTheirQuartiles) {
     const std::vector<double> odd{9, 1, 5};  // sorted 1 5 9: quartiles 3 and 7
     EXPECT_DOUBLE_EQ(median_spread(odd).median, 5);
     EXPECT_DOUBLE_EQ(median_spread(odd).spread, 4);
+    EXPECT_DOUBLE_EQ(median_spread(odd).least, 1);
     const std::vector<double> even{4, 1, 3, 2};  // quartiles 1.75 and 3.25
     EXPECT_DOUBLE_EQ(median_spread(even).median, 2.5);
     EXPECT_DOUBLE_EQ(median_spread(even).spread, 1.5);
