@@ -26,8 +26,9 @@ uniform int step_count;
 uniform int light_steps;  // per local medium on the way to a light
 uniform int has_global;
 
-// The last step is e times as long as the first.
-const float STEP_GROWTH = 1.0;
+// The last step is e^3 = 20 times as long as the first. Among 0, 1, 2, 3, 4 this had the least error, or near it, in places
+// of the sample level with and without near shadows.
+const float STEP_GROWTH = 3.0;
 
 // Optical depth from the eye behind which nothing shows: less than 1e-13 of it.
 const float OPAQUE_DEPTH = 30.0;
