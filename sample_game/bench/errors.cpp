@@ -41,6 +41,29 @@ void switch_on(Scene& scene, const std::vector<glm::vec3>& intensities) {
 
 }  // namespace
 
+double dim_relative_rmse(const Image& image, const Image& reference, double kept) {
+    const std::size_t channels = static_cast<std::size_t>(reference.channels);
+    const auto brightness = [&](std::size_t pixel) {
+        const auto begin = reference.pixels.begin() + static_cast<std::ptrdiff_t>(pixel * channels);
+        return *std::max_element(begin, begin + static_cast<std::ptrdiff_t>(channels));
+    };
+    std::vector<float> sorted(reference.pixels.size() / channels);
+    for (std::size_t i = 0; i < sorted.size(); ++i) sorted[i] = brightness(i);
+    std::ranges::sort(sorted);
+    const float limit = sorted[static_cast<std::size_t>(kept * static_cast<double>(sorted.size() - 1))];
+    Image a({0, 1}, reference.channels), b({0, 1}, reference.channels);
+    for (std::size_t i = 0; i < sorted.size(); ++i) {
+        if (brightness(i) > limit) continue;
+        ++a.size.x;
+        for (std::size_t c = i * channels; c < (i + 1) * channels; ++c) {
+            a.pixels.push_back(image.pixels[c]);
+            b.pixels.push_back(reference.pixels[c]);
+        }
+    }
+    b.size = a.size;
+    return relative_rmse(a, b);
+}
+
 Errors measure_errors(Session& session, const View& view, const Point& point, const GroundTruth& truth,
                       bool display) {
     start(session, view, point);
@@ -49,6 +72,7 @@ Errors measure_errors(Session& session, const View& view, const Point& point, co
     const std::vector<Image> drawn = draw_layers(session, view, point.place->time, layers);
     Errors errors;
     errors.scattering = relative_rmse(drawn[0], truth.scattering);
+    errors.dim = dim_relative_rmse(drawn[0], truth.scattering, 0.98);
     errors.invalid = count_invalid(drawn[0], std::numeric_limits<float>::max());
     if (!display) return errors;
     errors.transmittance = compare_images(drawn[1], truth.transmittance).rmse;

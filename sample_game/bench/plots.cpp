@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <tuple>
 
 #include "sample_game/bench/reports.h"
 #include "sample_game/bench/svg_plot.h"
@@ -22,13 +24,21 @@ struct Shown {
 };
 
 /// One series for each family, its curves joined over the count that buys accuracy, and the front over all.
-Plot error_over_time(const std::vector<Shown>& shown) {
+Plot error_over_time(const std::vector<Shown>& measured) {
     Plot plot;
     plot.x_label = time_label;
     plot.y_label = error_label;
     plot.front_name = "best error within a time";
+    std::vector<Shown> shown;  // competitors
+    for (const Shown& s : measured)
+        if (!family(s.point->configuration.family).limit) shown.push_back(s);
     std::vector<glm::dvec2> all;
-    for (const Shown& s : shown) all.push_back(s.at);
+    double first = std::numeric_limits<double>::infinity(), last = 0;
+    for (const Shown& s : shown) {
+        all.push_back(s.at);
+        first = std::min(first, s.at.x);
+        last = std::max(last, s.at.x);
+    }
     const std::vector<std::size_t> front = pareto_front(all);
     for (const std::size_t i : front) plot.front.push_back(all[i]);
     bool hollow = false;
@@ -48,6 +58,14 @@ Plot error_over_time(const std::vector<Shown>& shown) {
         for (const auto& [name, curve] : curves)
             (name.empty() ? series.curves : series.faint_curves).push_back(curve);
         if (!series.points.empty()) plot.series.push_back(std::move(series));
+    }
+    for (const Shown& s : measured) {
+        const Family& f = family(s.point->configuration.family);
+        if (!f.limit || shown.empty()) continue;
+        PlotSeries level{
+            f.name + ": the shadow maps' error", f.color, f.marker, {}, {{{first, s.at.y}, {last, s.at.y}}}};
+        level.dashed = true;
+        plot.series.push_back(std::move(level));
     }
     plot.notes = {"Numbers: steps, on the front"};
     if (hollow)
@@ -69,14 +87,18 @@ Pictures error_time_plots(const std::vector<Row>& rows, const std::string& machi
     }
     const std::vector<Mean> average = means(rows);
     if (average.empty() || place_names(rows).size() < 2) return pictures;
-    for (const bool flip : {false, true}) {
+    const std::vector<std::tuple<std::string, std::string, double Mean::*>> overviews{
+        {"overview", error_label, &Mean::error},
+        {"overview_dim", error_label + ", without the brightest 2%", &Mean::dim},
+        {"overview_flip", "HDR FLIP of the picture (mean)", &Mean::flip}};
+    for (const auto& [name, label, member] : overviews) {
         std::vector<Shown> shown;
-        for (const Mean& m : average) shown.push_back({{m.time, flip ? m.flip : m.error}, m.point});
+        for (const Mean& m : average) shown.push_back({{m.time, m.*member}, m.point});
         Plot plot = error_over_time(shown);
         plot.title = fmt::format("Error against time over {} places", place_names(rows).size());
         plot.subtitle = "Geometric means. " + machine;
-        if (flip) plot.y_label = "HDR FLIP of the picture (mean)";
-        pictures[flip ? "overview_flip" : "overview"] = svg_plot(plot);
+        plot.y_label = label;
+        pictures[name] = svg_plot(plot);
     }
     return pictures;
 }

@@ -86,13 +86,15 @@ std::vector<Mean> means(const std::vector<Row>& rows) {
             all.insert(all.end(), others.begin(), others.end());
         }
         if (all.size() != places) continue;
-        std::vector<double> time, error, flip;
+        std::vector<double> time, error, dim, flip;
         for (const Row* row : all) {
             time.push_back(row->volumetrics.median);
             error.push_back(row->measured->errors->scattering);
+            dim.push_back(row->measured->errors->dim);
             flip.push_back(row->measured->errors->flip);
         }
-        result.push_back({point, geometric_mean(time), geometric_mean(error), geometric_mean(flip)});
+        result.push_back(
+            {point, geometric_mean(time), geometric_mean(error), geometric_mean(dim), geometric_mean(flip)});
     }
     return result;
 }

@@ -33,11 +33,11 @@ struct Row {
 [[nodiscard]] std::vector<std::string> place_names(const std::vector<Row>& rows);
 [[nodiscard]] std::vector<Row> of_place(const std::vector<Row>& rows, const std::string& place);
 
-/// A configuration over all places: geometric means of time, scattering error and FLIP. Where a place has no lamps,
-/// all rules for lamps are one and the same. Configurations that some place lacks are left out.
+/// A configuration over all places: geometric means of time, errors of scattering and FLIP. Where a place has no
+/// lamps, all rules for lamps are one and the same. Configurations that some place lacks are left out.
 struct Mean {
     const Point* point;  ///< of one place, for the configuration
-    double time = 0, error = 0, flip = 0;
+    double time = 0, error = 0, dim = 0, flip = 0;
 };
 [[nodiscard]] std::vector<Mean> means(const std::vector<Row>& rows);
 

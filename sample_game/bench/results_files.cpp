@@ -45,6 +45,7 @@ Fields fields(const Suite& suite, const Row& row) {
     const Errors errors = m.errors.value_or(Errors{});
     const bool display = m.errors.has_value() && suite.display;
     add("scattering_relative_rmse", m.errors.has_value(), errors.scattering);
+    add("scattering_relative_rmse_dim98", m.errors.has_value(), errors.dim);
     add("transmittance_rmse", display, errors.transmittance);
     add("color_hdr_flip", display, errors.flip);
     add("invalid_values", m.errors.has_value(), errors.invalid);

@@ -22,6 +22,7 @@ struct Errors {
     double scattering = 0;     ///< relative RMSE of the scattering layer
     double flip = 0;           ///< mean HDR FLIP of the colour layer, 0..1
     double transmittance = 0;  ///< RMSE of the transmittance layer
+    double dim = 0;            ///< as `scattering`, without the 2% of pixels that are brightest in the ground truth
     double invalid = 0;        ///< values that are not finite, negative, or a transmittance above 1
 };
 

@@ -34,7 +34,7 @@ const std::vector<Family>& families() {
         march("march, white, blur", "white", "bilateral", "#c4500a", Marker::triangle),
         march("march, Bayer", "bayer", "none", "#7db4e0", Marker::square),
         march("march, Bayer, blur", "bayer", "bilateral", "#0b5fa5", Marker::square),
-        {"reference", "reference", {}, {}, "", "#009e73", Marker::star},
+        {"reference", "reference", {}, {}, "", "#009e73", Marker::star, 0, true},
     };
     return list;
 }

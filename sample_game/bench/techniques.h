@@ -26,6 +26,8 @@ struct Family {
     std::string color;
     Marker marker = Marker::circle;
     int history_frames = 0;
+    /// No competitor: its error is what the engine's shadow maps leave to any technique. Drawn as a level.
+    bool limit = false;
 };
 [[nodiscard]] const std::vector<Family>& families();
 [[nodiscard]] const Family& family(const std::string& name);  ///< a failed check when there is none

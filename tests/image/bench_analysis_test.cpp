@@ -5,7 +5,9 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/core/image_metrics.h"
 #include "sample_game/bench/analysis.h"
+#include "sample_game/bench/errors.h"
 
 namespace tyndall::bench {
 namespace {
@@ -112,6 +114,18 @@ TEST(GeometricMean, OfTwoIsTheRootOfTheirProduct) {
     EXPECT_NEAR(geometric_mean(values), 4, 1e-12);
     const std::vector<double> with_zero{0, 8};
     EXPECT_EQ(geometric_mean(with_zero), 0);
+}
+
+TEST(DimError, LeavesTheBrightestOut) {
+    Image truth({100, 1}, 3), other({100, 1}, 3);
+    for (int x = 0; x < 100; ++x)
+        for (int c = 0; c < 3; ++c) {
+            truth.at(x, 0)[c] = x < 99 ? 1.0f : 1000.0f;
+            other.at(x, 0)[c] = x < 99 ? 1.1f : 0.0f;
+        }
+    EXPECT_NEAR(dim_relative_rmse(other, truth, 0.98), 0.1, 1e-6);  // 99 pixels are 0.1 too bright
+    EXPECT_NEAR(dim_relative_rmse(other, truth, 1.0), relative_rmse(other, truth), 1e-6);
+    EXPECT_GT(relative_rmse(other, truth), 9);  // one pixel is all there is: 1000 / sqrt(100) over a mean of 11
 }
 
 }  // namespace

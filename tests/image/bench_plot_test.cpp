@@ -108,7 +108,7 @@ class StoreTest : public ::testing::Test {
     void fill() {
         Store store(folder_.path(), conditions_, true);
         store.add_time("a", {{"volumetrics/march", 2.5}, {"tonemap", 0.5}});
-        store.add_errors("a", {0.25, 0.5, std::numeric_limits<double>::infinity(), 3});
+        store.add_errors("a", {0.25, 0.5, std::numeric_limits<double>::infinity(), 0.125, 3});
         store.add_motion("a", {0.125, {1, 0.5, 0.25}});
         store.add_work("a", {1, 2, 3, 4});
         store.add_time("b", {{"volumetrics/march", 7}});
