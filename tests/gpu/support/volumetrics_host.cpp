@@ -44,7 +44,7 @@ GpuLight light_at(uint index) { return stub_lights[index]; }
 constexpr const char* shadows_glsl = R"(
 #include "shaders/interface/lights.glsl"
 float sun_visibility(vec3 world, float view_depth) {
-    if (stub_options.z == 0.0 || world.y > 4.0) return 1.0;
+    if (stub_options.z != 1.0 || world.y > 4.0) return 1.0;
     vec3 d = stub_sun_direction.xyz;
     float x = world.x - d.x / d.y * (world.y - 4.0);
     float z = world.z - d.z / d.y * (world.y - 4.0);
@@ -53,6 +53,10 @@ float sun_visibility(vec3 world, float view_depth) {
 float light_visibility(uint index, GpuLight light, vec3 world) {
     if (stub_options.z == 0.0) return 1.0;
     vec3 v = world - light.position_range.xyz;
+    if (stub_options.z == 2.0) {
+        float s = (-6.0 - light.position_range.z) / v.z;
+        return s > 0.0 && s < 1.0 && light.position_range.x + s * v.x < 0.0 ? 0.0 : 1.0;
+    }
     return fract(1.6 * atan(v.z, v.x) + 0.3 * float(index)) < 0.6 ? 1.0 : 0.0;
 }
 )";
@@ -153,6 +157,7 @@ Inputs StubHost::inputs(PassList& passes) {
         list_.bind(GL_SHADER_STORAGE_BUFFER, BINDING_CLUSTER_LIGHTS);
     };
     in.count_work = count_work;
+    in.frame_index = frame_index;
     return in;
 }
 
