@@ -51,7 +51,7 @@ struct InScattering::RaySum {
         if (m.sigma_s == dvec3(0)) return dvec3(0);
         const Sun& sun = *in.lighting_.sun;
         return glm::exp(-ray.depth(t)) * m.sigma_s * sun.illuminance *
-               in.towards_sun(origin + t * direction, sun.to_sun) *
+               in.towards_sun(origin + t * direction, sun.to_sun, in.averaged()) *
                phase(m.anisotropy, glm::dot(sun.to_sun, direction));
     }
     /// At u metres behind the point nearest to the lamp, times `weight`, m².
@@ -67,7 +67,7 @@ struct InScattering::RaySum {
         if (strength <= 0) return dvec3(0);
         const dvec3 to_lamp = distance > 0 ? -offset / distance : -direction;
         return glm::exp(-ray.depth(t)) * m.sigma_s * lamp.intensity *
-               in.towards_lamp(origin + t * direction, to_lamp, distance) *
+               in.towards_lamp(origin + t * direction, to_lamp, distance, in.averaged()) *
                (strength * phase(m.anisotropy, distance > 0 ? -u / distance : 0.0));
     }
     [[nodiscard]] dvec3 evaluate(int source, double x) const {
@@ -140,7 +140,7 @@ struct InScattering::RaySum {
         }
     }
     /// Lamps by what they can give at most, greatest first; the last ones are left out as long as all of them
-    /// together stay below a quarter of the tolerance. Returns their bound.
+    /// together stay within their share of the tolerance. Returns their bound.
     double add_lamps() {
         struct Candidate {
             LampPath path;
@@ -161,7 +161,8 @@ struct InScattering::RaySum {
         double left = std::accumulate(candidates.begin(), candidates.end(), 0.0,
                                       [](double s, const Candidate& c) { return s + c.bound; });
         for (const Candidate& c : candidates) {
-            if (left <= 0.25 * in.settings_.tolerance * std::max(largest(sum), in.settings_.floor)) return left;
+            if (left <= budget_left_out * in.settings_.tolerance * std::max(largest(sum), in.settings_.floor))
+                return left;
             add_lamp(c.path, c.reach);
             left = std::max(left - c.bound, 0.0);
         }
@@ -173,19 +174,16 @@ InScattering::InScattering(const Geometry& geometry, const Media& media, const L
                            const Settings& settings)
     : geometry_(geometry), media_(media), lighting_(lighting), settings_(settings) {}
 
-double InScattering::depth_tolerance() const {
-    return 0.1 * settings_.tolerance;
-}
-
-dvec3 InScattering::towards_sun(dvec3 point, dvec3 to_sun) const {
+dvec3 InScattering::towards_sun(dvec3 point, dvec3 to_sun, const DepthTolerance& tolerance) const {
     if (!settings_.light_transmittance) return dvec3(1);
     return glm::exp(
-        -media_.optical_depth(point, to_sun, 0, std::numeric_limits<double>::infinity(), false, depth_tolerance()));
+        -media_.optical_depth(point, to_sun, 0, std::numeric_limits<double>::infinity(), false, tolerance));
 }
 
-dvec3 InScattering::towards_lamp(dvec3 point, dvec3 to_lamp, double distance) const {
+dvec3 InScattering::towards_lamp(dvec3 point, dvec3 to_lamp, double distance,
+                                 const DepthTolerance& tolerance) const {
     if (!settings_.light_transmittance) return dvec3(1);
-    return glm::exp(-media_.optical_depth(point, to_lamp, 0, distance, true, depth_tolerance()));
+    return glm::exp(-media_.optical_depth(point, to_lamp, 0, distance, true, tolerance));
 }
 
 InScattering::Result InScattering::along(const MediaRay& ray, dvec3 origin, dvec3 unit_direction) const {
@@ -197,11 +195,12 @@ InScattering::Result InScattering::along(const MediaRay& ray, dvec3 origin, dvec
         if (lighting_.sun) sum.add_sun();
         left_out = sum.add_lamps();
     }
-    const double tolerance = 0.5 * settings_.tolerance;
+    const double tolerance = budget_quadrature * settings_.tolerance;
     const Integral<dvec3> all = refine<dvec3>([&](int source, double x) { return sum.evaluate(source, x); },
                                               sum.panels, {tolerance * settings_.floor, tolerance});
     const double radiance = largest(all.value);
-    return {all.value, largest(all.error) + left_out + 2 * depth_tolerance() * radiance};
+    const double noise = ray.noisy() && settings_.light_transmittance ? budget_noise * settings_.tolerance : 0;
+    return {all.value, largest(all.error) + left_out + (2 * depth_tolerance() + noise) * radiance};
 }
 
 }  // namespace tyndall::reference

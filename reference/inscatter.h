@@ -27,13 +27,21 @@ class InScattering {
     [[nodiscard]] Result along(const MediaRay& ray, dvec3 origin, dvec3 unit_direction) const;
 
     /// Transmittance from a point towards the sun, and over `distance` metres towards a lamp.
-    [[nodiscard]] dvec3 towards_sun(dvec3 point, dvec3 to_sun) const;
-    [[nodiscard]] dvec3 towards_lamp(dvec3 point, dvec3 to_lamp, double distance) const;
-    /// What a MediaRay's optical depths must be accurate to.
-    [[nodiscard]] double depth_tolerance() const;
+    [[nodiscard]] dvec3 towards_sun(dvec3 point, dvec3 to_sun, const DepthTolerance& tolerance) const;
+    [[nodiscard]] dvec3 towards_lamp(dvec3 point, dvec3 to_lamp, double distance,
+                                     const DepthTolerance& tolerance) const;
+    /// What optical depths must be accurate to, absolute.
+    [[nodiscard]] double depth_tolerance() const { return budget_depth * settings_.tolerance; }
 
   private:
+    // How the tolerance is shared out. A depth counts twice: from the eye and from the light.
+    static constexpr double budget_quadrature = 0.4, budget_left_out = 0.2, budget_depth = 0.05, budget_noise = 0.3;
     struct RaySum;
+    /// A ray averages many paths to lights through noise, and neighbours half a feature apart are independent: of
+    /// their error a quarter or less is left.
+    [[nodiscard]] DepthTolerance averaged() const {
+        return {depth_tolerance(), 4 * budget_noise * settings_.tolerance};
+    }
     const Geometry& geometry_;
     const Media& media_;
     const Lighting& lighting_;

@@ -67,12 +67,16 @@ MediumPoint Media::at(dvec3 point) const {
     return sum.result();
 }
 
+bool Media::noisy() const {
+    return std::ranges::any_of(shapes_, [](const MediumShape& m) { return m.noisy(); });
+}
+
 std::vector<double> Media::breakpoints(dvec3 origin, dvec3 unit_direction, double begin, double end) const {
     std::vector<double> all;
     for (const MediumShape& m : shapes_) {
         const auto path = m.path(origin, unit_direction);
         if (!path) continue;
-        const std::vector<double> knots = m.knots(*path, begin, end);
+        const std::vector<double> knots = m.knots(*path, begin, end, true);
         all.insert(all.end(), knots.begin(), knots.end());
     }
     std::erase_if(all, [&](double t) { return !(t > begin && t < end); });
@@ -88,13 +92,13 @@ dvec3 Media::unbounded_depth(double y, double rise, double length, bool global) 
 }
 
 dvec3 Media::optical_depth(dvec3 origin, dvec3 unit_direction, double begin, double end, bool global,
-                           double tolerance) const {
+                           const DepthTolerance& tolerance) const {
     dvec3 depth = unbounded_depth(origin.y + begin * unit_direction.y, unit_direction.y, end - begin, global);
     for (const MediumShape& m : shapes_) {
         const double thickest = std::max({m.sigma_t.x, m.sigma_t.y, m.sigma_t.z});
         if (thickest <= 0) continue;
         if (const auto path = m.path(origin, unit_direction))
-            depth += depth_of(m.sigma_t, m.density_length(*path, begin, end, tolerance / thickest));
+            depth += depth_of(m.sigma_t, m.density_length(*path, begin, end, tolerance.over(thickest)));
     }
     return depth;
 }

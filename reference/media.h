@@ -32,7 +32,7 @@ class Media {
     /// is set: towards the sun they do not, as nothing says where sunlight would enter them. Closed where the
     /// density is constant or exponential, adaptive quadrature elsewhere, to `tolerance` absolute.
     [[nodiscard]] dvec3 optical_depth(dvec3 origin, dvec3 unit_direction, double begin, double end, bool global,
-                                      double tolerance) const;
+                                      const DepthTolerance& tolerance) const;
 
     /// An unbounded medium: homogeneous, or with a density of exp(-(y - base) / falloff).
     struct Unbounded {
@@ -46,6 +46,7 @@ class Media {
     };
     [[nodiscard]] const std::vector<Unbounded>& unbounded() const { return unbounded_; }
     [[nodiscard]] const std::vector<MediumShape>& shapes() const { return shapes_; }
+    [[nodiscard]] bool noisy() const;  ///< a shape has noise
     /// Of the unbounded media alone.
     [[nodiscard]] dvec3 unbounded_depth(double y, double rise, double length, bool global) const;
     /// Channels in which some medium scatters or emits.

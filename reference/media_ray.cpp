@@ -19,7 +19,7 @@ MediaRay::MediaRay(const Media& media, dvec3 origin, dvec3 unit_direction, doubl
     for (const MediumShape& shape : media.shapes()) {
         const auto path = shape.path(origin, unit_direction);
         if (!path) continue;
-        const std::vector<double> knots = shape.knots(*path, 0, end);
+        const std::vector<double> knots = shape.knots(*path, 0, end, true);
         if (knots.empty()) continue;
         Local local{*path, {}};
         const double thickest = std::max({shape.sigma_t.x, shape.sigma_t.y, shape.sigma_t.z});

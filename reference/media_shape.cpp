@@ -3,15 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "engine/core/error.h"
 #include "reference/quadrature.h"
-#include "shaders/lib/glm_subset.h"
-
-// The noise describes the scene: the same field as the engine's.
-TYNDALL_GLSL_BEGIN
-#include "shaders/lib/media_shape.glsl"
-TYNDALL_GLSL_END
 
 namespace tyndall::reference {
 namespace {
@@ -65,9 +60,7 @@ MediumShape::MediumShape(const Medium& medium)
       softness_(medium.softness < thinnest_rim ? 0 : medium.softness),
       noisy_(medium.noise_scale > 0 && medium.noise_amount > 0),
       profile_(medium.height_profile),
-      noise_scale_(medium.noise_scale),
-      noise_amount_(medium.noise_amount),
-      noise_seed_(static_cast<unsigned>(medium.noise_seed)),
+      noise_{medium.noise_scale, medium.noise_amount, static_cast<unsigned>(medium.noise_seed)},
       base_(medium.base),
       falloff_(medium.falloff) {
     if (medium.shape == Medium::Shape::grid) throw Error("reference: grid media are not supported by this version");
@@ -82,13 +75,16 @@ double MediumShape::depth(dvec3 p) const {
     return std::min((1 - k) * k / glm::length(q / extent_), smallest(extent_));
 }
 
-double MediumShape::density(dvec3 p, double y) const {
+double MediumShape::smooth_density(dvec3 p, double y) const {
     const double below = depth(p);
     if (below < 0) return 0;
-    double density = softness_ > 0 ? std::min(below / softness_, 1.0) : 1.0;
-    if (noisy_ && density > 0) density *= glsl::media_noise(glm::vec3(p), noise_scale_, noise_amount_, noise_seed_);
-    if (profile_) density *= height_density(y, base_, falloff_);
-    return density;
+    const double rim = softness_ > 0 ? std::min(below / softness_, 1.0) : 1.0;
+    return profile_ ? rim * height_density(y, base_, falloff_) : rim;
+}
+
+double MediumShape::density(dvec3 p, double y) const {
+    const double smooth = smooth_density(p, y);
+    return noisy_ && smooth > 0 ? smooth * noise_.factor(glm::vec3(p)) : smooth;
 }
 
 double MediumShape::density(dvec3 world) const {
@@ -183,14 +179,14 @@ void MediumShape::add_ellipsoid_knots(const Path& path, std::vector<double>& kno
     knots.push_back(0.5 * (path.inside.begin + path.inside.end));  // nearest to the centre: a cusp close by
 }
 
-std::vector<double> MediumShape::knots(const Path& path, double begin, double end) const {
+std::vector<double> MediumShape::knots(const Path& path, double begin, double end, bool features) const {
     begin = std::max(begin, path.inside.begin);
     end = std::min(end, path.inside.end);
     if (!(begin < end)) return {};
     std::vector<double> knots{begin, end};
     box_ ? add_box_knots(path, knots) : add_ellipsoid_knots(path, knots);
-    if (noisy_) {
-        const double parts = std::clamp(std::ceil((end - begin) / noise_scale_), 1.0, 1000.0);
+    if (noisy_ && features) {
+        const double parts = std::clamp(std::ceil((end - begin) / noise_.scale), 1.0, 1000.0);
         for (double i = 1; i < parts; ++i) knots.push_back(begin + (end - begin) * i / parts);
     }
     std::erase_if(knots, [&](double t) { return !(t >= begin && t <= end); });
@@ -202,7 +198,8 @@ double MediumShape::attainable(double tolerance, double length) const {
     return noisy_ ? std::max(tolerance, 2e-6 * length) : tolerance;
 }
 
-double MediumShape::density_length(const Path& path, double begin, double end, double tolerance) const {
+double MediumShape::density_length(const Path& path, double begin, double end,
+                                   const DepthTolerance& tolerance) const {
     begin = std::max(begin, path.inside.begin);
     end = std::min(end, path.inside.end);
     if (!(begin < end)) return 0;
@@ -210,16 +207,49 @@ double MediumShape::density_length(const Path& path, double begin, double end, d
     if (closed() && softness_ == 0)
         return profile_ ? height_length(path.height + begin * path.rise, path.rise, length, base_, falloff_)
                         : length;
-    const std::vector<double> t = knots(path, begin, end);
+    const std::vector<double> t = knots(path, begin, end, false);
     if (closed()) {  // linear between knots
         double sum = 0;
         for (std::size_t i = 0; i + 1 < t.size(); ++i)
             sum += 0.5 * (t[i + 1] - t[i]) * (path.density(t[i]) + path.density(t[i + 1]));
         return sum;
     }
-    return integrate<double>([&](double x) { return path.density(x); }, t,
-                             {attainable(tolerance, length), 1e-12, most_panels})
+    if (noisy_) return noise_length(path, t, tolerance.noise);
+    return integrate<double>([&](double x) { return path.density(x); }, t, {tolerance.smooth, 1e-12, most_panels})
         .value;
+}
+
+// Gauss's 3-point rule in panels of 3 / q of the noise's scale. Measured over 200 chords of 4 m through noise of
+// scale 2.2 m, the root mean square error is 0.13 amount sqrt(length scale) / q², q = 16 to 66 points for each
+// scale.
+double MediumShape::noise_length(const Path& path, const std::vector<double>& knots, double tolerance) const {
+    const double length = knots.back() - knots.front();
+    const double q = std::sqrt(0.13 * noise_.amount * std::sqrt(length * noise_.scale) / tolerance);
+    const double widest = 3 * noise_.scale / std::clamp(q, 14.0, 400.0);
+    const double node = std::sqrt(0.6);
+    thread_local std::vector<glm::vec3> points;
+    thread_local std::vector<double> weights;
+    thread_local std::vector<float> factors;
+    points.clear();
+    weights.clear();
+    const auto add = [&](double t, double weight) {
+        const dvec3 p = path.origin + t * path.direction;
+        points.emplace_back(p);
+        weights.push_back(weight * smooth_density(p, path.height + t * path.rise));
+    };
+    for (std::size_t i = 0; i + 1 < knots.size(); ++i) {
+        const double panels = std::ceil((knots[i + 1] - knots[i]) / widest);
+        const double half = 0.5 * (knots[i + 1] - knots[i]) / panels;
+        for (double k = 0; k < panels; ++k) {
+            const double middle = knots[i] + (2 * k + 1) * half;
+            add(middle - node * half, 5 * half / 9);
+            add(middle, 8 * half / 9);
+            add(middle + node * half, 5 * half / 9);
+        }
+    }
+    factors.resize(points.size());
+    noise_.factors(points, factors);
+    return std::inner_product(weights.begin(), weights.end(), factors.begin(), 0.0);
 }
 
 }  // namespace tyndall::reference

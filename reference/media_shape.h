@@ -5,6 +5,7 @@
 
 #include "engine/scene/medium.h"
 #include "reference/geometry.h"
+#include "reference/media_noise.h"
 
 namespace tyndall::reference {
 
@@ -12,6 +13,15 @@ namespace tyndall::reference {
 /// height y and rises by `rise` per metre.
 [[nodiscard]] double height_length(double y, double rise, double length, double base, double falloff);
 [[nodiscard]] double height_density(double y, double base, double falloff);
+
+/// How exact an integral of density or extinction must be. `smooth`: greatest error; `noise`: root mean square
+/// error where a medium is noisy, which may be larger where many such integrals are averaged.
+struct DepthTolerance {
+    double smooth, noise;
+    DepthTolerance(double both) : smooth(both), noise(both) {}
+    DepthTolerance(double smooth_, double noise_) : smooth(smooth_), noise(noise_) {}
+    [[nodiscard]] DepthTolerance over(double sigma_t) const { return {smooth / sigma_t, noise / sigma_t}; }
+};
 
 /// A bounded medium: its density is rim * noise * height profile.
 class MediumShape {
@@ -37,23 +47,28 @@ class MediumShape {
     [[nodiscard]] double density(dvec3 world) const;
     [[nodiscard]] double greatest_density() const;  ///< an upper bound
 
-    /// Kinks of the density along a path within [begin, end], its ends among them; rising. Where there is noise,
-    /// also points as far apart as its largest features, so that a quadrature rule between them cannot miss those.
-    [[nodiscard]] std::vector<double> knots(const Path& path, double begin, double end) const;
+    /// Kinks of the density along a path within [begin, end], its ends among them; rising. `features`: where there
+    /// is noise, also points as far apart as its largest features, so that a quadrature rule cannot miss those.
+    [[nodiscard]] std::vector<double> knots(const Path& path, double begin, double end, bool features) const;
+    [[nodiscard]] bool noisy() const { return noisy_; }
     /// The integral of the density between two distances can be had in closed form.
     [[nodiscard]] bool closed() const { return !noisy_ && (softness_ == 0 || (box_ && !profile_)); }
     /// What an integral over `length` metres can be accurate to, m, if asked for `tolerance`: noise is single
     /// precision.
     [[nodiscard]] double attainable(double tolerance, double length) const;
-    /// That integral, m: in closed form or by adaptive quadrature to `tolerance`, m, if attainable.
-    [[nodiscard]] double density_length(const Path& path, double begin, double end, double tolerance) const;
+    /// That integral, m: in closed form, by adaptive quadrature, or, for noise, by a rule of fixed spacing, which
+    /// is smooth as path and limits move. Tolerances in m.
+    [[nodiscard]] double density_length(const Path& path, double begin, double end,
+                                        const DepthTolerance& tolerance) const;
 
   private:
     [[nodiscard]] double density(dvec3 local, double y) const;
+    [[nodiscard]] double smooth_density(dvec3 local, double y) const;  ///< without noise
     [[nodiscard]] double depth(dvec3 local) const;
     [[nodiscard]] dvec3 to_local(dvec3 world) const { return world_to_shape_ * (world - center_); }
     [[nodiscard]] std::optional<Interval> slab_chord(dvec3 o, dvec3 d) const;
     [[nodiscard]] std::optional<Interval> ellipsoid_chord(dvec3 o, dvec3 d) const;
+    [[nodiscard]] double noise_length(const Path& path, const std::vector<double>& knots, double tolerance) const;
     void add_box_knots(const Path& path, std::vector<double>& knots) const;
     void add_ellipsoid_knots(const Path& path, std::vector<double>& knots) const;
 
@@ -63,8 +78,7 @@ class MediumShape {
     glm::dmat3 world_to_shape_;
     double softness_;  ///< 0: the rim is a step
     bool noisy_, profile_;
-    float noise_scale_, noise_amount_;
-    unsigned noise_seed_;
+    MediaNoise noise_;
     double base_, falloff_;
 };
 

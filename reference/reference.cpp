@@ -57,7 +57,8 @@ dvec3 Reference::Impl::surface_radiance(const Geometry::Hit& hit, dvec3 origin, 
         const Sun& sun = *lighting.sun;
         const dvec3 share = reflected(surface, to_eye, sun.to_sun);
         if (share != dvec3(0) && lit(surface, sun.shadow, sun.to_sun, std::numeric_limits<double>::infinity()))
-            radiance += sun.illuminance * share * scattering.towards_sun(surface.position, sun.to_sun);
+            radiance += sun.illuminance * share *
+                        scattering.towards_sun(surface.position, sun.to_sun, scattering.depth_tolerance());
     }
     for (const Lamp& lamp : lighting.lamps) {
         const dvec3 offset = surface.position - lamp.position;
@@ -67,7 +68,8 @@ dvec3 Reference::Impl::surface_radiance(const Geometry::Hit& hit, dvec3 origin, 
         const dvec3 to_lamp = -offset / distance;
         const dvec3 share = reflected(surface, to_eye, to_lamp);
         if (share != dvec3(0) && lit(surface, lamp.shadow, to_lamp, distance))
-            radiance += illuminance * share * scattering.towards_lamp(surface.position, to_lamp, distance);
+            radiance += illuminance * share *
+                        scattering.towards_lamp(surface.position, to_lamp, distance, scattering.depth_tolerance());
     }
     if (settings.ambient > 0 && !sky.dark()) radiance += sky.reflected(surface, to_eye);
     return radiance;

@@ -318,7 +318,7 @@ TEST(Reference, ErrorEstimateHolds) {
         for (const double tolerance : {1e-2, 1e-3, 1e-4}) {
             const Reference::Ray ray =
                 w.trace(dvec3(0), d, {.ambient = 0, .black_surfaces = true, .tolerance = tolerance});
-            EXPECT_LE(std::abs(ray.scattering.x - best.x), ray.error + 1e-5 * best.x);
+            EXPECT_LE(std::abs(ray.scattering.x - best.x), ray.error + 1e-5 * best.x) << slope << " " << tolerance << " of " << best.x;
             EXPECT_LE(ray.error, tolerance * best.x);
         }
     }
