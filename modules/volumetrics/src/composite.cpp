@@ -26,14 +26,15 @@ TextureRef add_composite(PassList& passes, const PassResources& resources, const
             builder.sample(outputs.transmittance);
             color = builder.attach_color(color);
         },
-        [outputs, chromatic, &shader, &resources](const PassContext& context) {
+        [outputs, color, &shader, &resources](const PassContext& context) {
             const auto texture = [&](TextureRef ref) { return ref ? context.texture(ref) : gl::TextureView(); };
-            gl::apply({.blend = gl::Blend::premultiplied});
-            if (chromatic) glBlendFuncSeparate(GL_ONE, GL_SRC1_COLOR, GL_ZERO, GL_SRC_ALPHA);
+            gl::apply({});
             context.bind_framebuffer();
-            const BoundTextures bound{{gl::TextureView(), resources.nearest},
+            // Every pixel reads the one texel that it writes, which a texture barrier allows (GL 4.5 core, 9.3.1).
+            const BoundTextures bound{{texture(color), resources.nearest},
                                       {texture(outputs.scattering), resources.nearest},
                                       {texture(outputs.transmittance), resources.nearest}};
+            glTextureBarrier();
             shader.use();
             gl::draw_fullscreen();
         });
