@@ -1,0 +1,100 @@
+// A build with a guard removed is caught: the shaders are copied, one guard is cut out of the copy, and
+// tyndall_stress must fail with it, as must the command that it prints.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+namespace tyndall::stress {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Guard {
+    std::string name, file;
+    std::string text, without;
+    std::string says;  ///< part of the line that reports it
+};
+
+void PrintTo(const Guard& guard, std::ostream* out) {
+    *out << guard.name;
+}
+
+struct Result {
+    int exit_code;
+    std::string output;
+};
+
+Result run(const std::string& command) {
+    Result result{-1, ""};
+    FILE* pipe = popen(command.c_str(), "r");
+    if (pipe == nullptr) return result;
+    std::array<char, 4096> buffer{};
+    while (std::fgets(buffer.data(), buffer.size(), pipe) != nullptr) result.output += buffer.data();
+    const int status = pclose(pipe);
+    result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    return result;
+}
+
+class BrokenBuild : public ::testing::TestWithParam<Guard> {
+  protected:
+    BrokenBuild() {
+        std::string pattern = (fs::temp_directory_path() / "tyndall-broken-XXXXXX").string();
+        folder_ = mkdtemp(pattern.data());
+        fs::copy(fs::path(TYNDALL_SOURCE_DIR) / "shaders", folder_ / "shaders", fs::copy_options::recursive);
+    }
+    ~BrokenBuild() override { fs::remove_all(folder_); }
+
+    void remove(const Guard& guard) {
+        const fs::path path = folder_ / guard.file;
+        std::ostringstream text;
+        text << std::ifstream(path).rdbuf();
+        std::string changed = text.str();
+        const std::size_t at = changed.find(guard.text);
+        ASSERT_NE(at, std::string::npos) << guard.file << " no longer has: " << guard.text;
+        changed.replace(at, guard.text.size(), guard.without);
+        std::ofstream(path) << changed;
+    }
+    fs::path folder_;
+};
+
+TEST_P(BrokenBuild, IsCaughtAndTheCommandRepeatsIt) {
+    remove(GetParam());
+    if (HasFatalFailure()) return;
+    const Result found =
+        run(fmt::format("TYNDALL_DATA={} {} --frames 400 --failures 1", folder_.string(), TYNDALL_STRESS));
+    EXPECT_EQ(found.exit_code, 1) << found.output;
+    EXPECT_NE(found.output.find(GetParam().says), std::string::npos) << found.output;
+
+    const std::size_t at = found.output.find("; TYNDALL_DATA=");
+    ASSERT_NE(at, std::string::npos) << found.output;
+    const std::string command = found.output.substr(at + 2, found.output.find('\n', at) - at - 2);
+    EXPECT_NE(command.find("--only"), std::string::npos) << command;
+    const Result again = run(command);
+    EXPECT_EQ(again.exit_code, 1) << command << "\n" << again.output;
+    EXPECT_NE(again.output.find(GetParam().says), std::string::npos) << again.output;
+}
+
+INSTANTIATE_TEST_SUITE_P(Guards, BrokenBuild,
+                         ::testing::Values(Guard{"LampRadius", "shaders/lib/lamp_segment.glsl",
+                                                 "float sphere = max(radius, LAMP_MIN_RADIUS);",
+                                                 "float sphere = radius;", "scattering at pixel"},
+                                           Guard{"HeightExponent", "shaders/lib/transmittance.glsl",
+                                                 "exp(min((base - y) / falloff, HEIGHT_MAX_EXPONENT))",
+                                                 "exp((base - y) / falloff)", "at pixel"},
+                                           Guard{"HalfMaximum", "shaders/lib/pack.glsl",
+                                                 "vec4 limited = clamp(v, vec4(-HALF_MAX), vec4(HALF_MAX));",
+                                                 "vec4 limited = v;", "65504 expected"},
+                                           Guard{"ClearestChannel", "shaders/volumetrics/segment.glsl",
+                                                 "if (clearest_end > visible_end)", "if (false)",
+                                                 "the ground truth"}),
+                         [](const auto& info) { return info.param.name; });
+
+}  // namespace
+}  // namespace tyndall::stress

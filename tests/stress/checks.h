@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "engine/core/image.h"
+#include "frame.h"
+
+namespace tyndall::stress {
+
+/// The layers of one drawn frame.
+struct Layers {
+    Image scattering, transmittance, color, depth;
+};
+[[nodiscard]] Layers read_layers(const Renderer& renderer);
+
+/// What is wrong, where, and the value; one line.
+using Findings = std::vector<std::string>;
+
+/// All finite, none negative, transmittance at most 1; at most one finding a layer.
+void check_values(const Layers& layers, Findings& findings);
+
+/// GL errors and debug messages of medium or high severity since the last call.
+void check_gl(Findings& findings);
+
+/// Along a ray transmittance falls: behind a surface (`with`) no more light may come through than in front of it.
+/// `without` is the same view of the same media without any surface. Returns the number of pixels that were
+/// compared. Holds to the rounding of half floats and of sums of `steps` segments.
+int check_monotonic(const Layers& with, const Layers& without, int steps, Findings& findings);
+
+}  // namespace tyndall::stress

@@ -1,0 +1,54 @@
+#include "describe.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+namespace tyndall::stress {
+namespace {
+
+std::string text(glm::vec3 v) {
+    return fmt::format("({:.7g}, {:.7g}, {:.7g})", v.x, v.y, v.z);
+}
+
+std::string text(const StressFrame::Lamp& lamp) {
+    static constexpr const char* types[] = {"sun", "point", "spot"};
+    const Light& light = lamp.light;
+    return fmt::format("  {} {} range {:.7g} radius {:.7g} cone {:.7g} to {:.7g} at {} towards {}{}\n",
+                       types[static_cast<int>(light.type)], text(light.intensity), light.range, light.radius,
+                       light.inner_cone, light.outer_cone, text(lamp.pose[3]), text(-lamp.pose[2]),
+                       light.shadow ? ", shadows" : "");
+}
+
+std::string text(const Medium& medium) {
+    static constexpr const char* shapes[] = {"global", "height", "sphere", "ellipsoid", "box", "grid"};
+    std::string line =
+        fmt::format("  {} scattering {} absorption {} g {:.7g} emission {}", shapes[static_cast<int>(medium.shape)],
+                    text(medium.sigma_s), text(medium.sigma_a), medium.anisotropy, text(medium.emission));
+    if (medium.height_profile) line += fmt::format(" base {:.7g} falloff {:.7g}", medium.base, medium.falloff);
+    if (medium.shape != Medium::Shape::global && medium.shape != Medium::Shape::height)
+        line += fmt::format(" at {} radii {} size {} softness {:.7g} noise {:.7g} of {:.7g} m", text(medium.center),
+                            text(medium.radii), text(medium.size), medium.softness, medium.noise_amount,
+                            medium.noise_scale);
+    return line + "\n";
+}
+
+}  // namespace
+
+std::string describe(const StressFrame& frame) {
+    static constexpr const char* worlds[] = {"nothing", "standing", "moving"};
+    const View& view = frame.view;
+    const glm::vec3 forward = -glm::vec3(view.view[0][2], view.view[1][2], view.view[2][2]);
+    std::string all = fmt::format("  {}x{}, objects: {}, eye {} looks along {}, fov {:.7g}, near {:.7g}\n",
+                                  frame.size.x, frame.size.y, worlds[static_cast<int>(frame.world)], text(view.eye),
+                                  text(forward), glm::degrees(view.yfov), view.znear);
+    for (const auto& light : frame.lights) all += text(light);
+    for (const Medium& medium : frame.media) all += text(medium);
+    FrameOptions options = frame.options;
+    SettingsSet settings;
+    settings.add(volumetrics::settings_table(), &options.volumetrics);
+    settings.add(render_settings_table(), &options.render);
+    return all + "  " + settings.to_json().dump() + "\n";
+}
+
+}  // namespace tyndall::stress

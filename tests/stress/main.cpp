@@ -1,0 +1,89 @@
+// tyndall_stress: random and extreme frames, checked after each; the same command draws the same frames.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <cstdlib>
+
+#include "describe.h"
+#include "engine/core/error.h"
+#include "engine/core/log.h"
+#include "engine/platform/gl_context.h"
+#include "run.h"
+
+namespace tyndall::stress {
+namespace {
+
+struct Options {
+    int frames = 2000, first = 0, only = -1, most_failures = 10;
+    std::uint64_t seed = 1;
+    bool verbose = false;
+};
+
+/// What to type to see the failure again.
+std::string command(const Options& options, const std::string& program, const std::string& frames) {
+    const char* data = std::getenv("TYNDALL_DATA");
+    return fmt::format("{}{} --seed {} {}", data != nullptr ? fmt::format("TYNDALL_DATA={} ", data) : "", program,
+                       options.seed, frames);
+}
+
+double seconds_since(std::chrono::steady_clock::time_point begin) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+int run(const Options& options, const std::string& program) {
+    const bool one = options.only >= 0;
+    const int first = one ? options.only : options.first, end = first + (one ? 1 : options.frames);
+    const auto begin = std::chrono::steady_clock::now();
+    init_logging();
+    spdlog::set_level(spdlog::level::err);  // the driver's messages are findings
+    const auto context = create_context({});
+    Run run(options.seed);
+    for (int before = first - first % sequence_length; before < first; ++before) run.draw(before);
+    for (int number = first; number < end && run.totals.failed < options.most_failures; ++number) {
+        const auto frame_begin = std::chrono::steady_clock::now();
+        const Findings findings = run.check(number);
+        if (one) fmt::print("frame {}:\n{}", number, describe(make_frame(options.seed, number)));
+        if (options.verbose) fmt::print("frame {}: {:.1f} ms\n", number, 1e3 * seconds_since(frame_begin));
+        if (findings.empty()) continue;
+        const bool alone = one || run.fails_alone(number);
+        const std::string again = command(options, program,
+                                          alone ? fmt::format("--only {}", number)
+                                                : fmt::format("--first {} --frames {}", first, number - first + 1));
+        for (const std::string& finding : findings) fmt::print("frame {}: {}; {}\n", number, finding, again);
+    }
+    const Totals& t = run.totals;
+    fmt::print(
+        "{} frames, {} failed, in {:.1f} s; {} pixels of {} frames compared with the ground truth (largest "
+        "error {:.2f} of its bound), {} pixels with what lies behind them\n",
+        t.frames, t.failed, seconds_since(begin), t.truth.pixels, t.truth.frames, t.truth.worst, t.depth_pixels);
+    if (t.frames >= 200 && (t.depth_pixels == 0 || t.truth.pixels == 0)) {
+        fmt::print("nothing was compared\n");
+        return 1;
+    }
+    return t.failed == 0 ? 0 : 1;
+}
+
+}  // namespace
+}  // namespace tyndall::stress
+
+int main(int argc, char** argv) {
+    using namespace tyndall;
+    stress::Options options;
+    CLI::App app("Random and extreme frames, each checked: finite, in range, monotonic, near the ground truth.");
+    app.add_option("--frames", options.frames, "how many")->check(CLI::PositiveNumber);
+    app.add_option("--seed", options.seed, "of everything random");
+    app.add_option("--first", options.first, "number of the first frame")->check(CLI::NonNegativeNumber);
+    app.add_option("--only", options.only, "number of the only frame")->check(CLI::NonNegativeNumber);
+    app.add_option("--failures", options.most_failures, "stop after so many")->check(CLI::PositiveNumber);
+    app.add_flag("--verbose", options.verbose, "the time of each frame");
+    try {
+        app.parse(argc, argv);
+        return stress::run(options, argv[0]);
+    } catch (const CLI::ParseError& e) {
+        return app.exit(e) == 0 ? 0 : 2;
+    } catch (const std::exception& e) {
+        fmt::print(stderr, "tyndall_stress: {}\n", e.what());
+        return 1;
+    }
+}

@@ -1,0 +1,70 @@
+#include "run.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "engine/core/error.h"
+
+namespace tyndall::stress {
+namespace {
+
+/// Where along a ray the media are sampled depends on where it ends: only closed forms are monotonic for certain.
+bool has_monotonic_transmittance(const StressFrame& frame) {
+    return std::ranges::all_of(frame.media, [](const Medium& medium) {
+        return medium.shape == Medium::Shape::global || medium.shape == Medium::Shape::height;
+    });
+}
+
+bool has_surface(const Image& depth) {
+    return std::ranges::any_of(depth.pixels, [](float d) { return d > 0; });
+}
+
+}  // namespace
+
+Layers Run::render(const StressFrame& frame, World world) {
+    auto& [scene, renderer] = worlds_[world];
+    const Scene posed = pose_scene(scene, frame);
+    renderer->render(posed, frame.view, frame.size, frame.options);
+    return read_layers(*renderer);
+}
+
+void Run::draw(int number) {
+    const StressFrame frame = make_frame(seed_, number);
+    if (frame.cut) worlds_[frame.world].renderer->invalidate_history();
+    (void)render(frame, frame.world);
+}
+
+Findings Run::check(int number) {
+    StressFrame frame = make_frame(seed_, number);
+    Findings findings;
+    try {
+        if (frame.cut) worlds_[frame.world].renderer->invalidate_history();
+        const Layers layers = render(frame, frame.world);
+        check_values(layers, findings);
+        if (frame.comparable) {
+            Random random{seed_, 4, static_cast<std::uint64_t>(number)};
+            const Scene scene = pose_scene(worlds_[frame.world].scene, frame);
+            compare_with_truth(frame, scene, layers, random, totals.truth, findings);
+        }
+        const bool blurred = frame.options.volumetrics.blur != volumetrics::Blur::none;
+        if (!blurred && has_surface(layers.depth) && has_monotonic_transmittance(frame)) {
+            const Layers sky = render(frame, World::nothing);
+            totals.depth_pixels += check_monotonic(layers, sky, frame.options.volumetrics.steps, findings);
+        }
+    } catch (const Error& error) {
+        findings.push_back(error.what());
+    }
+    check_gl(findings);
+    ++totals.frames;
+    totals.failed += findings.empty() ? 0 : 1;
+    return findings;
+}
+
+bool Run::fails_alone(int number) {
+    Run alone(seed_);
+    for (int before = number - number % sequence_length; before < number; ++before) alone.draw(before);
+    return !alone.check(number).empty();
+}
+
+}  // namespace tyndall::stress

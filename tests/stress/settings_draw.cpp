@@ -1,0 +1,47 @@
+#include "settings_draw.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tyndall::stress {
+namespace {
+
+double draw(const Setting& setting, Random random) {
+    if (setting.type == SettingType::boolean) return random.below(2);
+    if (setting.type == SettingType::choice) return random.below(static_cast<int>(setting.choices.size()));
+    // Sides of shadow maps cost most by far.
+    const bool resource = setting.effect == SettingEffect::resource, map = resource && setting.unit == "px";
+    const double u = map ? std::pow(random.unit(), 16) : resource ? std::pow(random.unit(), 2) : random.unit();
+    if (!setting.allowed.empty())
+        return setting.allowed[static_cast<std::size_t>(u * static_cast<double>(setting.allowed.size()))];
+    if (!resource && random.chance(0.1)) return setting.min;
+    if (!resource && random.chance(0.1)) return setting.max;
+    const bool logarithmic = setting.scale == SettingScale::logarithmic && setting.min > 0;
+    const double value = logarithmic ? setting.min * std::pow(setting.max / setting.min, u)
+                                     : setting.min + (setting.max - setting.min) * u;
+    return setting.type == SettingType::integer ? std::round(value) : value;
+}
+
+void halve_until(int& a, int& b, int& c, long long most) {
+    while (static_cast<long long>(a) * b * c > most) {
+        int& largest = a >= b && a >= c ? a : b >= c ? b : c;
+        largest = (largest + 1) / 2;
+    }
+}
+
+}  // namespace
+
+void draw_settings(const SettingsTable& table, void* object, SettingEffect effect, const Random& random) {
+    for (const Setting& setting : table.settings())
+        if (setting.effect == effect) setting.set(object, draw(setting, random.fork(setting.key)));
+}
+
+void limit_resources(FrameOptions& options) {
+    volumetrics::Settings& v = options.volumetrics;
+    halve_until(v.froxels_x, v.froxels_y, v.froxels_z, 100'000);
+    for (int* side : {&v.froxels_x, &v.froxels_y, &v.froxels_z}) *side |= 1;  // see odd() in frame.cpp
+    RenderSettings& r = options.render;
+    halve_until(r.cluster_x, r.cluster_y, r.cluster_z, 20'000);
+}
+
+}  // namespace tyndall::stress

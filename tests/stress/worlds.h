@@ -1,0 +1,32 @@
+#pragma once
+
+#include <array>
+#include <memory>
+
+#include "engine/render/renderer.h"
+
+namespace tyndall::stress {
+
+/// nothing: no surface. standing: a floor, boxes, thin posts and a lamp shade at the origin. moving: the same as
+/// dynamic objects, which a frame places.
+enum class World { nothing, standing, moving };
+constexpr int world_count = 3;
+
+/// Scenes that are prepared once and drawn by many frames, each by a renderer of its own.
+class Worlds {
+  public:
+    Worlds();
+    struct Place {
+        Scene scene;  ///< without lights, media and cameras
+        std::unique_ptr<Renderer> renderer;
+    };
+    [[nodiscard]] Place& operator[](World world);
+    /// Forgets all that renderers keep between frames.
+    void reset();
+
+  private:
+    ShaderLibrary shaders_;
+    std::array<Place, world_count> places_;
+};
+
+}  // namespace tyndall::stress
