@@ -36,16 +36,30 @@ vec3 local_depth_at(ivec3 froxel, vec4 texel) {
 #endif
 }
 
-void add_column(ivec3 froxel, float weight, inout Ends ends) {
+// `beyond`, 0..1: how sure it is that the column sees past the pixel's surface, at whose outline it lies. Its slice is
+// then lit behind the surface too, maybe by a lamp that the surface hides. So it is taken to send no more than the slice
+// before it, in proportion to their lengths (`growth`).
+void add_column(ivec3 froxel, float weight, float beyond, float growth, inout Ends ends) {
     count_work(WORK_TEXTURE_FETCHES, 1u);
     vec4 texel = texelFetch(froxel_radiance, froxel, 0);
-    ends.radiance_end += weight * texel.rgb;
+    vec3 radiance_end = texel.rgb;
     ends.local_end += weight * local_depth_at(froxel, texel);
-    if (--froxel.z < 0) return;
-    count_work(WORK_TEXTURE_FETCHES, 1u);
-    texel = texelFetch(froxel_radiance, froxel, 0);
-    ends.radiance_begin += weight * texel.rgb;
-    ends.local_begin += weight * local_depth_at(froxel, texel);
+    if (--froxel.z >= 0) {
+        count_work(WORK_TEXTURE_FETCHES, 1u);
+        texel = texelFetch(froxel_radiance, froxel, 0);
+        ends.radiance_begin += weight * texel.rgb;
+        ends.local_begin += weight * local_depth_at(froxel, texel);
+        if (beyond > 0.0) {
+            vec3 before = vec3(0.0);
+            if (froxel.z > 0) {
+                count_work(WORK_TEXTURE_FETCHES, 1u);
+                before = texelFetch(froxel_radiance, froxel - ivec3(0, 0, 1), 0).rgb;
+            }
+            vec3 limit = texel.rgb + growth * max(texel.rgb - before, 0.0);
+            radiance_end = mix(radiance_end, min(radiance_end, limit), beyond);
+        }
+    }
+    ends.radiance_end += weight * radiance_end;
 }
 
 // 1 for a column that reaches the view depth, falling to 0 for one that ends at half of it or before: behind that
@@ -54,7 +68,8 @@ float depth_weight(float farthest, float view_depth) {
     return farthest >= view_depth ? 1.0 : max(2.0 * farthest / view_depth - 1.0, 0.0);
 }
 
-Ends interpolate(vec2 uv, int slice, float view_depth, ivec2 size) {
+// growth: length of the slice relative to the one before it.
+Ends interpolate(vec2 uv, int slice, float view_depth, float growth, ivec2 size) {
     vec2 p = uv * vec2(size) - 0.5;
     ivec2 base = ivec2(floor(p));
     vec2 f = p - vec2(base);
@@ -68,7 +83,8 @@ Ends interpolate(vec2 uv, int slice, float view_depth, ivec2 size) {
         count_work(WORK_TEXTURE_FETCHES, 1u);
         float weight = side.x * side.y * depth_weight(farthest, view_depth);
         if (weight <= 0.0) continue;
-        add_column(ivec3(column, slice), weight, ends);
+        float beyond = clamp(min(farthest, froxel_far()) / view_depth - 1.0, 0.0, 1.0);
+        add_column(ivec3(column, slice), weight, beyond, growth, ends);
         total += weight;
     }
     float scale = 1.0 / max(total, 1.0e-6);
@@ -85,10 +101,11 @@ void main() {
     float view_depth = min(surface, froxel_far());
     ivec3 size = textureSize(froxel_radiance, 0);
     int slice = froxel_slice(view_depth, size.z);
-    Ends ends = interpolate(uv, slice, view_depth, size.xy);
-
     float slice_begin = froxel_slice_begin(slice, size.z);
     float slice_end = froxel_slice_begin(slice + 1, size.z);
+    float growth = (slice_end - slice_begin) / max(slice_begin - froxel_slice_begin(slice - 1, size.z), 1.0e-6);
+    Ends ends = interpolate(uv, slice, view_depth, growth, size.xy);
+
     float begin = ray_distance_from_view_depth(slice_begin, ray.forward_cosine);
     float end = ray_distance_from_view_depth(slice_end, ray.forward_cosine);
     float at = ray_distance_from_view_depth(view_depth, ray.forward_cosine);
