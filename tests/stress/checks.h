@@ -17,8 +17,11 @@ struct Layers {
 /// What is wrong, where, and the value; one line.
 using Findings = std::vector<std::string>;
 
-/// All finite, none negative, transmittance at most 1; at most one finding a layer.
-void check_values(const Layers& layers, Findings& findings);
+constexpr float half_max = 65504;
+
+/// All finite, none negative, transmittance at most 1, color at most 65504, scattering at most `most`; at most one
+/// finding a layer.
+void check_values(const Layers& layers, float most, Findings& findings);
 
 /// GL errors and debug messages of medium or high severity since the last call.
 void check_gl(Findings& findings);

@@ -34,7 +34,7 @@ Medium draw_global(bool height, const StressFrame& frame, const Structure& struc
     draw_coefficients(medium, frame.media.empty(), random.chance(0.3), structure, random);
     if (!height) return medium;
     medium.height_profile = true;
-    medium.falloff = comparable ? logarithmic(random, 1, 50) : usual_or(random, 1, 50, 1e-3, 1e5);
+    medium.falloff = comparable ? logarithmic(random, 3, 50) : usual_or(random, 1, 50, 1e-3, 1e5);
     const double sign = random.pick({-1.0, 1.0});
     const double above = comparable ? random.linear(-5, 10) : sign * random.logarithmic(1e-3, 1e4);
     medium.base = origin.y + static_cast<float>(above);

@@ -86,8 +86,8 @@ void limit_work(StressFrame& frame) {
 
 /// What the closed forms and the ground truth agree about: see compare.h.
 void moderate(FrameOptions& options, Random& random) {
-    options.volumetrics.steps = static_cast<int>(random.logarithmic(8, 128));
-    options.volumetrics.max_distance = static_cast<float>(random.logarithmic(300, 3000));
+    options.volumetrics.steps = static_cast<int>(random.logarithmic(12, 128));
+    options.volumetrics.max_distance = static_cast<float>(random.logarithmic(120, 2000));
     options.volumetrics.stepping_strength = std::min(options.volumetrics.stepping_strength, 4.0f);
     options.volumetrics.lamp_integration = volumetrics::LampIntegration::segment;
     options.render.cluster_far = std::max(options.render.cluster_far, 100.0f);
