@@ -41,7 +41,28 @@ void switch_on(Scene& scene, const std::vector<glm::vec3>& intensities) {
 
 }  // namespace
 
-double dim_relative_rmse(const Image& image, const Image& reference, double kept) {
+std::vector<bool> same_surface(const Image& depth, const Image& reference) {
+    const auto at = [](const Image& image, std::size_t pixel) {
+        return image.pixels[pixel * static_cast<std::size_t>(image.channels)];
+    };
+    std::vector<bool> same(reference.pixels.size() / static_cast<std::size_t>(reference.channels));
+    for (std::size_t i = 0; i < same.size(); ++i)
+        same[i] = std::abs(at(depth, i) - at(reference, i)) <= 0.01f * at(reference, i);
+    return same;
+}
+
+Image kept(const Image& image, const std::vector<bool>& keep) {
+    Image row({0, 1}, image.channels);
+    const std::size_t channels = static_cast<std::size_t>(image.channels);
+    for (std::size_t i = 0; i < keep.size(); ++i) {
+        if (!keep[i]) continue;
+        ++row.size.x;
+        for (std::size_t c = i * channels; c < (i + 1) * channels; ++c) row.pixels.push_back(image.pixels[c]);
+    }
+    return row;
+}
+
+double dim_relative_rmse(const Image& image, const Image& reference, double part) {
     const std::size_t channels = static_cast<std::size_t>(reference.channels);
     const auto brightness = [&](std::size_t pixel) {
         const auto begin = reference.pixels.begin() + static_cast<std::ptrdiff_t>(pixel * channels);
@@ -50,36 +71,31 @@ double dim_relative_rmse(const Image& image, const Image& reference, double kept
     std::vector<float> sorted(reference.pixels.size() / channels);
     for (std::size_t i = 0; i < sorted.size(); ++i) sorted[i] = brightness(i);
     std::ranges::sort(sorted);
-    const float limit = sorted[static_cast<std::size_t>(kept * static_cast<double>(sorted.size() - 1))];
-    Image a({0, 1}, reference.channels), b({0, 1}, reference.channels);
-    for (std::size_t i = 0; i < sorted.size(); ++i) {
-        if (brightness(i) > limit) continue;
-        ++a.size.x;
-        for (std::size_t c = i * channels; c < (i + 1) * channels; ++c) {
-            a.pixels.push_back(image.pixels[c]);
-            b.pixels.push_back(reference.pixels[c]);
-        }
-    }
-    b.size = a.size;
-    return relative_rmse(a, b);
+    const float limit = sorted[static_cast<std::size_t>(part * static_cast<double>(sorted.size() - 1))];
+    std::vector<bool> dim(sorted.size());
+    for (std::size_t i = 0; i < dim.size(); ++i) dim[i] = brightness(i) <= limit;
+    return relative_rmse(kept(image, dim), kept(reference, dim));
 }
 
 Errors measure_errors(Session& session, const View& view, const Point& point, const GroundTruth& truth,
                       bool display) {
     start(session, view, point);
-    std::vector<std::string> layers{"scattering"};
+    std::vector<std::string> layers{"scattering", "depth"};
     if (display) layers.insert(layers.end(), {"transmittance", "color"});
     const std::vector<Image> drawn = draw_layers(session, view, point.place->time, layers);
+    const std::vector<bool> same = same_surface(drawn[1], truth.depth);
+    const Image scattering = kept(drawn[0], same), reference = kept(truth.scattering, same);
     Errors errors;
-    errors.scattering = relative_rmse(drawn[0], truth.scattering);
-    errors.dim = dim_relative_rmse(drawn[0], truth.scattering, 0.98);
+    errors.masked = static_cast<double>(std::ranges::count(same, false)) / static_cast<double>(same.size());
+    errors.scattering = relative_rmse(scattering, reference);
+    errors.dim = dim_relative_rmse(scattering, reference, 0.98);
     errors.invalid = count_invalid(drawn[0], std::numeric_limits<float>::max());
     if (!display) return errors;
-    errors.transmittance = compare_images(drawn[1], truth.transmittance).rmse;
-    errors.invalid += count_invalid(drawn[1], 1.0f);
-    const bool finite = std::ranges::all_of(drawn[2].pixels, [](float v) { return std::isfinite(v); });
+    errors.transmittance = compare_images(kept(drawn[2], same), kept(truth.transmittance, same)).rmse;
+    errors.invalid += count_invalid(drawn[2], 1.0f);
+    const bool finite = std::ranges::all_of(drawn[3].pixels, [](float v) { return std::isfinite(v); });
     errors.flip =
-        finite ? mean_value(hdr_flip_error(drawn[2], truth.color)) : std::numeric_limits<double>::infinity();
+        finite ? mean_value(hdr_flip_error(drawn[3], truth.color)) : std::numeric_limits<double>::infinity();
     return errors;
 }
 

@@ -17,10 +17,10 @@
 namespace tyndall::bench {
 namespace {
 
-const std::vector<std::string> layers{"color", "scattering", "transmittance"};
+const std::vector<std::string> layers{"color", "scattering", "transmittance", "depth"};
 
-std::array<Image*, 3> images(GroundTruth& truth) {
-    return {&truth.color, &truth.scattering, &truth.transmittance};
+std::array<Image*, 4> images(GroundTruth& truth) {
+    return {&truth.color, &truth.scattering, &truth.transmittance, &truth.depth};
 }
 
 GroundTruth from_cpu(const Session& session, const View& view, const Point& point) {
@@ -30,7 +30,8 @@ GroundTruth from_cpu(const Session& session, const View& view, const Point& poin
     Progress progress("reference of " + point.place->name + ", row", point.size.y);
     reference::Picture picture =
         reference::render(integrator, view, point.size, 1, 0, [&](int, int) { progress.step(); });
-    return {std::move(picture.color), std::move(picture.scattering), std::move(picture.transmittance)};
+    return {std::move(picture.color), std::move(picture.scattering), std::move(picture.transmittance),
+            std::move(picture.depth)};
 }
 
 GroundTruth from_gpu(Session& session, const View& view, const Point& point) {
@@ -39,7 +40,7 @@ GroundTruth from_gpu(Session& session, const View& view, const Point& point) {
     session.size = point.size;
     session.options.frame_index = 0;
     std::vector<Image> drawn = draw_layers(session, view, point.place->time, layers);
-    return {std::move(drawn[0]), std::move(drawn[1]), std::move(drawn[2])};
+    return {std::move(drawn[0]), std::move(drawn[1]), std::move(drawn[2]), std::move(drawn[3])};
 }
 
 }  // namespace
@@ -73,7 +74,7 @@ GroundTruth GroundTruths::get(Session& session, const View& view, const Point& p
     std::vector<std::filesystem::path> paths;
     for (const std::string& layer : layers) paths.push_back(folder_ / (name + "-" + layer + ".exr"));
     GroundTruth truth;
-    const std::array<Image*, 3> into = images(truth);
+    const std::array<Image*, 4> into = images(truth);
     if (std::ranges::all_of(paths, [](const auto& path) { return std::filesystem::exists(path); })) {
         for (std::size_t i = 0; i < paths.size(); ++i) *into[i] = read_image(paths[i], 3);
         return truth;

@@ -14,6 +14,7 @@ enum class TruthKind { cpu, gpu };  ///< `tyndall reference`, or the technique `
 
 struct GroundTruth {
     Image color, scattering, transmittance;  ///< linear, 3 channels
+    Image depth;                             ///< view depth, m, 0 on the sky; 3 equal channels
 };
 
 /// Ground truths as .exr files in a folder, made once. A file's name tells the scene's content, place, size and

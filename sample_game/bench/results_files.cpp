@@ -46,6 +46,7 @@ Fields fields(const Suite& suite, const Row& row) {
     const bool display = m.errors.has_value() && suite.display;
     add("scattering_relative_rmse", m.errors.has_value(), errors.scattering);
     add("scattering_relative_rmse_dim98", m.errors.has_value(), errors.dim);
+    add("masked_pixels", m.errors.has_value(), errors.masked);
     add("transmittance_rmse", display, errors.transmittance);
     add("color_hdr_flip", display, errors.flip);
     add("invalid_values", m.errors.has_value(), errors.invalid);

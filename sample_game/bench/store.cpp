@@ -75,7 +75,8 @@ void Store::apply(const json& record) {
     if (record.contains("times")) m.times.push_back(record["times"].get<PassTimes>());
     if (record.contains("errors")) {
         const json& e = record["errors"];
-        m.errors = Errors{number(e.at(0)), number(e.at(1)), number(e.at(2)), number(e.at(3)), number(e.at(4))};
+        m.errors = Errors{number(e.at(0)), number(e.at(1)), number(e.at(2)),
+                          number(e.at(3)), number(e.at(4)), number(e.at(5))};
     }
     if (record.contains("motion")) {
         const json& r = record["motion"];
@@ -94,7 +95,7 @@ void Store::add_time(const std::string& key, const PassTimes& times) {
     append({{"key", key}, {"times", times}});
 }
 void Store::add_errors(const std::string& key, const Errors& e) {
-    append({{"key", key}, {"errors", {e.scattering, e.flip, e.transmittance, e.dim, e.invalid}}});
+    append({{"key", key}, {"errors", {e.scattering, e.flip, e.transmittance, e.dim, e.masked, e.invalid}}});
 }
 void Store::add_motion(const std::string& key, const Motion& m) {
     append({{"key", key}, {"motion", {m.flicker, m.residual[0], m.residual[1], m.residual[2]}}});

@@ -19,10 +19,11 @@ using PassTimes = std::vector<std::pair<std::string, double>>;  ///< ms, in the 
 
 /// Against the ground truth of the place. Without `display`, only `scattering` is known.
 struct Errors {
-    double scattering = 0;     ///< relative RMSE of the scattering layer
+    double scattering = 0;     ///< relative RMSE of the scattering layer, over pixels that see the same surface
     double flip = 0;           ///< mean HDR FLIP of the colour layer, 0..1
     double transmittance = 0;  ///< RMSE of the transmittance layer
     double dim = 0;            ///< as `scattering`, without the 2% of pixels that are brightest in the ground truth
+    double masked = 0;         ///< share of pixels left out of these: another surface is seen there
     double invalid = 0;        ///< values that are not finite, negative, or a transmittance above 1
 };
 

@@ -51,9 +51,9 @@ std::string method(const Suite& suite, const std::vector<Row>& rows, const json&
                                                    : "GPU: technique `reference`, over the same shadow maps");
     if (suite.errors)
         md +=
-            "| error | relative RMSE of the scattering layer; dim 98%: without the 2% of pixels that are brightest "
-            "in the "
-            "ground truth; FLIP: mean HDR FLIP of the picture |\n";
+            "| error | relative RMSE of the scattering layer, over pixels that see the same surface as the ground "
+            "truth; dim 98%: without the 2% of pixels that are brightest there; FLIP: mean HDR FLIP of the picture "
+            "|\n";
     return md + "\n";
 }
 

@@ -16,9 +16,7 @@ Family march(const std::string& name, const std::string& dither, const std::stri
     return {name,
             "ray_march",
             {"dither=" + dither, "blur=" + blur},
-            {{"stepping", {"exponential", "uniform"}},
-             {"lamp_integration", {"segment", "center"}, true},
-             {"steps", {"2", "4", "8", "16", "32", "64"}}},
+            {{"lamp_integration", {"segment", "center"}, true}, {"steps", {"2", "4", "8", "16", "32", "64"}}},
             "steps",
             color,
             marker};
@@ -34,6 +32,13 @@ const std::vector<Family>& families() {
         march("march, white, blur", "white", "bilateral", "#c4500a", Marker::triangle),
         march("march, Bayer", "bayer", "none", "#7db4e0", Marker::square),
         march("march, Bayer, blur", "bayer", "bilateral", "#0b5fa5", Marker::square),
+        {"froxel",
+         "froxel",
+         {},
+         {{"lamp_integration", {"segment", "center"}, true}, {"froxels_z", {"16", "32", "64", "128"}}},
+         "froxels_z",
+         "#b0307a",
+         Marker::diamond},
         {"reference", "reference", {}, {}, "", "#009e73", Marker::star, 0, true},
     };
     return list;

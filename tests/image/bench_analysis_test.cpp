@@ -116,6 +116,21 @@ TEST(GeometricMean, OfTwoIsTheRootOfTheirProduct) {
     EXPECT_EQ(geometric_mean(with_zero), 0);
 }
 
+TEST(SameSurface, LeavesOutWhatAnotherSurfaceOrTheSkyHides) {
+    Image depth({4, 1}, 1), truth({4, 1}, 3);
+    const float drawn[] = {10, 10, 0, 0}, expected[] = {10.05f, 12, 5, 0};
+    for (int x = 0; x < 4; ++x) {
+        depth.at(x, 0)[0] = drawn[x];
+        for (int c = 0; c < 3; ++c) truth.at(x, 0)[c] = expected[x];
+    }
+    const std::vector<bool> same = same_surface(depth, truth);
+    EXPECT_EQ(same, (std::vector<bool>{true, false, false, true}));
+    const Image left = kept(truth, same);
+    EXPECT_EQ(left.size, glm::ivec2(2, 1));
+    EXPECT_EQ(left.at(0, 0)[2], 10.05f);
+    EXPECT_EQ(left.at(1, 0)[0], 0);
+}
+
 TEST(DimError, LeavesTheBrightestOut) {
     Image truth({100, 1}, 3), other({100, 1}, 3);
     for (int x = 0; x < 100; ++x)
