@@ -32,12 +32,11 @@ struct Reference::Impl {
 
 namespace {
 
-/// Single precision places triangles no better than this fraction of their distance from the origin.
-constexpr double placement = 1e-6;
-
+/// How far from a surface its own triangles, and those in the same plane, are not asked: corners are in single
+/// precision. m.
 double skip_at(dvec3 position) {
-    return std::max(1e-4,
-                    4 * placement * std::max({std::abs(position.x), std::abs(position.y), std::abs(position.z)}));
+    const double farthest = std::max({std::abs(position.x), std::abs(position.y), std::abs(position.z)});
+    return 1e-6 * std::max(1.0, farthest);
 }
 
 }  // namespace
@@ -94,9 +93,9 @@ Reference::Ray Reference::trace(dvec3 origin, dvec3 unit_direction, double begin
     ray.scattering = scattered.radiance;
     ray.error = scattered.error;
     ray.transmittance = glm::exp(-media.depth(ray.distance));
-    if (!hit)
+    if (!hit && !i.settings.black_sky)
         ray.background = i.sky.background(unit_direction);
-    else if (!i.settings.black_surfaces)
+    if (hit && !i.settings.black_surfaces)
         ray.background = i.surface_radiance(*hit, origin, unit_direction);
     return ray;
 }

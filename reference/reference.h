@@ -18,6 +18,7 @@ struct Settings {
     bool shadows = true;
     double ambient = 0.4;         ///< factor on the sky's light
     bool black_surfaces = false;  ///< surfaces block and hide, and send no light
+    bool black_sky = false;       ///< what leaves the scene sees nothing; light of the sky is `ambient`
     double tolerance = 1e-4;      ///< of the radiance of a ray, relative; absolute below `floor`
     double floor = 1e-6;          ///< cd/m²
 };

@@ -30,7 +30,7 @@ struct Options {
     std::string output, layer = "color";
     int samples = 1, threads = 0;
     double tolerance = reference::Settings{}.tolerance;
-    bool black_surfaces = false;
+    bool black_surfaces = false, black_sky = false;
 };
 
 const std::map<std::string, Image reference::Picture::*> layers{
@@ -94,6 +94,7 @@ void run(const Options& o) {
                                            .shadows = render.shadows,
                                            .ambient = render.ambient,
                                            .black_surfaces = o.black_surfaces,
+                                           .black_sky = o.black_sky,
                                            .tolerance = o.tolerance});
     reference::Picture picture;
     {
@@ -134,6 +135,7 @@ void add_reference_command(CLI::App& app) {
         ->check(CLI::Range(1e-12, 0.1))
         ->capture_default_str();
     command->add_flag("--black-surfaces", o->black_surfaces, "surfaces block and hide, and send no light");
+    command->add_flag("--black-sky", o->black_sky, "nothing is seen behind the scene");
     command->callback([o] { run(*o); });
 }
 
