@@ -6,6 +6,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <numeric>
 
+#include "engine/scene/view.h"
 #include "shaders/shared/shadows.h"
 
 namespace tyndall {
@@ -106,7 +107,7 @@ shared::ShadowTile make_shadow_tile(const Light& light, const glm::mat4& light_t
     const glm::vec3 up = std::abs(axis.y) < 0.99f ? glm::vec3(0, 1, 0) : glm::vec3(0, 0, 1);
     const auto atlas = static_cast<float>(atlas_size);
     shared::ShadowTile tile;
-    tile.world_to_clip = reversed_projection(tan_half, near, far) * glm::lookAt(position, position + axis, up);
+    tile.world_to_clip = reversed_projection(tan_half, near, far) * world_to_camera(position, axis, up);
     tile.rect = glm::vec4(glm::vec2(place.origin) / atlas, side / atlas, 0.5f / atlas);
     tile.depth = glm::vec4(near, far, 2 * tan_half / side, 1);
     return tile;

@@ -8,7 +8,7 @@ namespace {
 
 View from_pose(glm::vec3 eye, glm::vec3 forward, glm::vec3 up, float yfov, float znear, float aspect) {
     View view;
-    view.view = glm::lookAt(eye, eye + forward, up);
+    view.view = world_to_camera(eye, forward, up);
     view.projection = reversed_infinite_projection(yfov, aspect, znear);
     view.view_projection = view.projection * view.view;
     view.eye = eye;
@@ -19,6 +19,11 @@ View from_pose(glm::vec3 eye, glm::vec3 forward, glm::vec3 up, float yfov, float
 }
 
 }  // namespace
+
+glm::mat4 world_to_camera(glm::vec3 eye, glm::vec3 forward, glm::vec3 up) {
+    // Not lookAt(eye, eye + forward, up): a million metres from the origin that sum holds 4 bits of the direction.
+    return glm::translate(glm::lookAt(glm::vec3(0), forward, up), -eye);
+}
 
 // Clip z = near, clip w = -z of view space: depth = near / distance, 1 at the near plane, 0 at infinity.
 glm::mat4 reversed_infinite_projection(float yfov, float aspect, float znear) {

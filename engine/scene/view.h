@@ -18,6 +18,8 @@ struct View {
 };
 [[nodiscard]] View make_view(const glm::mat4& camera_to_world, float yfov, float znear, float aspect);
 [[nodiscard]] View look_at(glm::vec3 eye, glm::vec3 target, float yfov, float znear, float aspect);
+/// World to view space for an eye that looks along `forward` (unit); exact in direction wherever the eye is.
+[[nodiscard]] glm::mat4 world_to_camera(glm::vec3 eye, glm::vec3 forward, glm::vec3 up);
 [[nodiscard]] glm::mat4 reversed_infinite_projection(float yfov, float aspect, float znear);
 
 /// Planes with inward normals: dot(plane.xyz, p) + plane.w >= 0 inside.

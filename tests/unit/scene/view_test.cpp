@@ -123,6 +123,18 @@ TEST(Frustum, ASphereTouchesWhereItsRadiusReachesThePlane) {
     EXPECT_TRUE(frustum.intersects_sphere(glm::vec3(0, 0, -1e6f), 1));
 }
 
+TEST(View, LooksWhereItShouldFarFromTheOrigin) {
+    const glm::vec3 forward = glm::normalize(glm::vec3(0.31f, -0.4f, -0.87f));
+    for (const float far : {0.0f, 1e3f, 1e6f, 1e9f}) {
+        const glm::vec3 eye = far * glm::vec3(0.6f, 0.3f, 0.74f);
+        const glm::mat4 pose =
+            glm::translate(glm::mat4(1), eye) * glm::mat4_cast(glm::quatLookAt(forward, {0, 1, 0}));
+        const View view = make_view(pose, 1, 0.1f, 1);
+        const glm::vec3 seen = glm::mat3(view.view) * forward;
+        EXPECT_NEAR(glm::distance(seen, glm::vec3(0, 0, -1)), 0, 1e-6f) << far;
+    }
+}
+
 TEST(Frustum, AnEmptyBoxIsNowhere) {
     std::mt19937 random(4);
     EXPECT_FALSE(Frustum::from(random_view(random).view_projection).intersects(Aabb{}));
