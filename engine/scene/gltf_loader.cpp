@@ -49,11 +49,15 @@ void turn_mirrored_meshes(Scene& scene) {
 }
 
 void place_in_world(const GltfFile& file, Scene& scene) {
+    constexpr float farthest = 1e9f;  // m; squares and products of distances stay finite
     animate(scene, 0);
-    for (const Node& node : scene.nodes)
+    for (const Node& node : scene.nodes) {
         for (int column = 0; column < 4; ++column)
             if (!std::isfinite(glm::length(node.world[column])))
                 file.fail("node \"{}\": its place in the world is not finite", node.name);
+        if (glm::length(glm::vec3(node.world[3])) > farthest)
+            file.fail("node \"{}\": it is farther than {} m from the origin", node.name, farthest);
+    }
     turn_mirrored_meshes(scene);
     for (const Node& node : scene.nodes) {
         for (const int mesh : node.meshes) {

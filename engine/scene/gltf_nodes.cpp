@@ -9,6 +9,7 @@
 namespace tyndall::gltf {
 namespace {
 
+constexpr float brightest_light = 1e15f;       // cd or lx; so that products with it stay finite
 constexpr float faintest_illuminance = 0.01f;  // lx; where a lamp without a range ends
 
 /// The parent of each node; checks that the nodes are trees.
@@ -78,7 +79,7 @@ int load_camera(const GltfFile& file, const tinygltf::Node& node, int id, Scene&
     camera.name = from.name.empty() ? node.name : from.name;
     camera.node = id;
     camera.yfov = file.number(from.perspective.yfov, what + ": yfov", 1e-4, std::numbers::pi - 1e-4);
-    camera.znear = file.number(from.perspective.znear, what + ": znear", 1e-6);
+    camera.znear = file.number(from.perspective.znear, what + ": znear", 1e-6, 1e6);
     scene.cameras.push_back(camera);
     return static_cast<int>(scene.cameras.size()) - 1;
 }
@@ -104,6 +105,8 @@ int load_light(const GltfFile& file, int index, int id, Scene& scene, const std:
     if (!from.color.empty()) light.intensity *= file.vector<3>(from.color, what + ": color", 0);
     const float brightest = std::max({light.intensity.x, light.intensity.y, light.intensity.z});
     if (!std::isfinite(brightest)) file.fail("{}: intensity times color is not finite", what);
+    if (brightest > brightest_light)
+        file.fail("{}: intensity times color is {}, at most {} expected", what, brightest, brightest_light);
     const Json extra = file.extras(from);
     if (extra.contains("radius")) light.radius = file.number(extra["radius"], what + ": extras.radius", 1e-6);
     if (extra.contains("shadow")) light.shadow = file.boolean(extra["shadow"], what + ": extras.shadow");

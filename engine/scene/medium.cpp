@@ -53,6 +53,13 @@ struct Field {
     [[nodiscard]] float not_negative() const {
         return number("a number >= 0", [](float v) { return v >= 0; });
     }
+    // Far beyond any matter, and such that products with densities, lengths and light stay finite.
+    [[nodiscard]] float coefficient() const {
+        return number("a number from 0 to 1e6", [](float v) { return v >= 0 && v <= 1e6f; });
+    }
+    [[nodiscard]] float radiance() const {
+        return number("a number from 0 to 1e12", [](float v) { return v >= 0 && v <= 1e12f; });
+    }
     template <int n>
     [[nodiscard]] glm::vec<n, float> vector(float (Field::*element)() const) const {
         if (!json.is_array() || json.size() != n) fail(fmt::format("a list of {} numbers", n));
@@ -137,9 +144,9 @@ Medium parse_medium(const Field& field) {
     Medium medium;
     medium.shape = parse_shape(field.at("shape"));
     require_known_keys(field, medium.shape);
-    medium.sigma_s = field.at("scattering").vector<3>(&Field::not_negative);
-    if (field.has("absorption")) medium.sigma_a = field.at("absorption").vector<3>(&Field::not_negative);
-    if (field.has("emission")) medium.emission = field.at("emission").vector<3>(&Field::not_negative);
+    medium.sigma_s = field.at("scattering").vector<3>(&Field::coefficient);
+    if (field.has("absorption")) medium.sigma_a = field.at("absorption").vector<3>(&Field::coefficient);
+    if (field.has("emission")) medium.emission = field.at("emission").vector<3>(&Field::radiance);
     if (field.has("anisotropy"))
         medium.anisotropy =
             field.at("anisotropy").number("a number between -1 and 1", [](float v) { return v > -1 && v < 1; });

@@ -31,8 +31,8 @@ struct Medium {
 };
 
 /// Parses {"media": [...]} or the bare list. `where` starts each message: path and index ("fog.json:
-/// media[2].radius: …"). Unknown keys, wrong types, non-finite numbers, negative coefficients, |g| >= 1, sizes <= 0
-/// are errors. A `grid` is an error that says grid media are not supported by this version.
+/// media[2].radius: …"). Unknown keys, wrong types, non-finite numbers, coefficients outside 0 to 1e6 1/m, |g| >= 1,
+/// sizes <= 0 are errors. A `grid` is an error that says grid media are not supported by this version.
 [[nodiscard]] std::vector<Medium> parse_media(const nlohmann::json& json, const std::string& where);
 [[nodiscard]] std::vector<Medium> load_media(const std::filesystem::path& path);
 
