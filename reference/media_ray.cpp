@@ -27,7 +27,8 @@ MediaRay::MediaRay(const Media& media, dvec3 origin, dvec3 unit_direction, doubl
             local.table = DensityTable([&](double t) { return path->density(t); }, knots,
                                        shape.attainable(tolerance / thickest, knots.back() - knots.front()));
         locals_.push_back(std::move(local));
-        edges.insert(edges.end(), knots.begin(), knots.end());
+        const std::vector<double> kinks = shape.knots(*path, 0, end, false);
+        edges.insert(edges.end(), kinks.begin(), kinks.end());
     }
     end_ = source_end(end);
     end_ = std::min(end_, where_depth_is(opaque, end_, true));
