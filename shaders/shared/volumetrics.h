@@ -37,6 +37,7 @@ struct VolumetricsData {
     uvec4 options;              // x PHASE_*, y 1: light is attenuated on its way in, z 1: ambient light, w FROXEL_*
     vec4 march;                 // x max distance (m), y first step / ray length, z each step / the one before
     vec4 froxel_depths;         // x nearest, y farthest view depth (m) of the froxel volume; z jitter 0..1, < 0: none
+    vec4 medium_depths;         // x nearest, y farthest view depth (m) at which the march finds a medium
     HeightMedium height[MAX_HEIGHT_MEDIA];
 };
 

@@ -75,7 +75,9 @@ void main() {
     float depth = texelFetch(depth_texture, ivec2(gl_FragCoord.xy), 0).r;
     count_work(WORK_TEXTURE_FETCHES, 1u);
     float surface = ray_distance_from_view_depth(view_depth_from_buffer(depth, volumetrics.eye.w), ray.forward_cosine);
-    float end = min(surface, volumetrics.march.x);
+    // Without a global medium only the depths that hold local ones.
+    vec2 medium = volumetrics.medium_depths.xy / ray.forward_cosine;
+    float end = min(surface, min(volumetrics.march.x, medium.y));
     float offset = dither_offset();
 
     March march = March(vec3(0.0), Extinction(1.0));
@@ -83,16 +85,16 @@ void main() {
 #if HAS_SUN
     sun_front = to_extinction(sun_optical_depth(ray.origin.y, -sun_direction()));
 #endif
-    float step_length = end * volumetrics.march.y;
-    float a = 0.0;
-    uint steps = volumetrics.counts.z;
+    float a = medium.x;
+    float step_length = (end - a) * volumetrics.march.y;
+    uint steps = a < end ? volumetrics.counts.z : 0u;
     for (uint i = 0u; i < steps && largest(march.transmittance) > OPAQUE; ++i) {
         float b = i + 1u == steps ? end : min(a + step_length, end);
         march_segment(ray, a, b, offset, sun_front, march);
         step_length *= volumetrics.march.z;
         a = b;
     }
-    if (surface > end) march_tail(ray, end, surface, is_background(depth), ambient, sun_front, march);
+    if (surface > end && end == volumetrics.march.x) march_tail(ray, end, surface, is_background(depth), ambient, sun_front, march);
 
     out_scattering = round_to_half(vec4(march.radiance, average(march.transmittance)));
 #if CHROMATIC

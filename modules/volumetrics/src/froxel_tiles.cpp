@@ -76,6 +76,19 @@ IndexBox froxel_bounds(const LocalMedium& medium, const Inputs& inputs, const Fr
     return box;
 }
 
+glm::vec2 view_depths(std::span<const IndexBox> boxes, const FroxelGrid& grid) {
+    int first = grid.size.z, last = 0;
+    for (const IndexBox& box : boxes) {
+        first = std::min(first, box.lower.z);
+        last = std::max(last, box.upper.z);
+    }
+    const auto depth = [&](int slice) {
+        const float w = static_cast<float>(slice) / static_cast<float>(grid.size.z);
+        return glsl::froxel_view_depth_from_w(grid.distribution, w, grid.nearest, grid.farthest);
+    };
+    return {first == 0 ? 0 : depth(first), depth(last)};
+}
+
 std::vector<std::uint32_t> live_tiles(std::span<const IndexBox> boxes, glm::ivec3 froxels) {
     const glm::ivec3 tiles = (froxels + froxel_tile - 1) / froxel_tile;
     const std::size_t words = (boxes.size() + 31) / 32;

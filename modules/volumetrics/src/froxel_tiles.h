@@ -19,6 +19,9 @@ struct FroxelGrid {
 /// The froxels whose centres a medium may cover, never too few; empty when it is out of view.
 [[nodiscard]] IndexBox froxel_bounds(const LocalMedium& medium, const Inputs& inputs, const FroxelGrid& grid);
 
+/// Nearest and farthest view depth [m] of the slices that the boxes take up.
+[[nodiscard]] glm::vec2 view_depths(std::span<const IndexBox> boxes, const FroxelGrid& grid);
+
 /// Froxels of one tile: one work group of shaders/volumetrics/inject_media.comp.
 constexpr glm::ivec3 froxel_tile{16, 16, 1};
 /// The tiles that some box meets, in the order z, y, x: for each, x | y << 10 | z << 20 and then

@@ -115,6 +115,9 @@ void add_local(const Inputs& inputs, const Settings& settings, FrameMedia& media
     // R1 sequence over the frames (Roberts 2018): multiples of the golden ratio.
     const double phase = inputs.frame_index * 0.6180339887498949;
     const float jitter = settings.froxel_jitter ? static_cast<float>(phase - std::floor(phase)) : -1.0F;
+    media.data.medium_depths = {0, 1e9F, 0, 0};
+    if (!media.has_global && !media.local_froxels.empty())
+        media.data.medium_depths = glm::vec4(view_depths(media.local_froxels, grid), 0, 0);
     media.data.froxel_depths = {grid.nearest, grid.farthest, jitter, 0};
 }
 

@@ -109,6 +109,21 @@ TEST(VolumetricsMedia, FroxelBoundsHoldEveryPointInView) {
     }
 }
 
+TEST(VolumetricsMedia, WithoutAGlobalMediumTheMarchKeepsToTheDepthsOfLocalOnes) {
+    Inputs inputs = view_inputs();
+    inputs.local = {{.box = true, .center = {0, 0, -20}, .half_extent = {1, 1, 2}, .sigma_s = glm::vec3(1)},
+                    {.box = true, .center = {0, 0, -40}, .half_extent = {1, 1, 2}, .sigma_s = glm::vec3(1)}};
+    const glm::vec4 depths = gather_media(inputs, {}).data.medium_depths;
+    EXPECT_LE(depths.x, 18);  // and no more than two slices of 9% too near or far
+    EXPECT_GT(depths.x, 15);
+    EXPECT_GE(depths.y, 42);
+    EXPECT_LT(depths.y, 51);
+    inputs.global = {{.sigma_s = glm::vec3(0.01F)}};
+    const glm::vec4 everywhere = gather_media(inputs, {}).data.medium_depths;
+    EXPECT_EQ(everywhere.x, 0);
+    EXPECT_GE(everywhere.y, 1e9F);
+}
+
 TEST(VolumetricsMedia, LiveTilesHoldWhichBoxesMeetWhichTiles) {
     const glm::ivec3 froxels{50, 33, 5};  // 4 x 3 x 5 tiles
     std::vector<IndexBox> boxes(40, IndexBox{{0, 0, 0}, {50, 33, 3}});
