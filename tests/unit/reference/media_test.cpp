@@ -51,7 +51,7 @@ double depth(const std::vector<Medium>& media, dvec3 origin, dvec3 direction, do
 }
 
 /// Many equal panels: knows nothing of edges.
-double fine(const Media& media, dvec3 origin, dvec3 direction, double begin, double end, int panels = 20000) {
+double fine(const Media& media, dvec3 origin, dvec3 direction, double begin, double end, int panels = 8000) {
     return test::integrate_panels([&](double t) { return media.at(origin + t * direction).sigma_t.x; }, begin, end,
                                   panels);
 }
@@ -151,12 +151,12 @@ TEST(ReferenceMedia, SoftRimsAgainstFineQuadrature) {
                                      hard};
     for (std::size_t k = 0; k < shapes.size(); ++k) {
         const Media media({shapes[k]});
-        for (int i = 0; i < 12; ++i) {
+        for (int i = 0; i < 6; ++i) {
             const dvec3 o(unit(random), unit(random), unit(random));
             const dvec3 d = glm::normalize(dvec3(unit(random), unit(random), unit(random)));
             const double expected = fine(media, o, d, -4, 4);
             const double found = media.optical_depth(o, d, -4, 4, true, 1e-10).x;
-            EXPECT_NEAR(found, expected, k == 6 ? 2e-4 : 2e-7) << k;  // the step of a hard rim costs the panels
+            EXPECT_NEAR(found, expected, k == 6 ? 5e-4 : 1e-6) << k;  // the step of a hard rim costs the panels
             const MediaRay ray(media, o - 4.0 * d, d, 8, 1e-9);
             EXPECT_NEAR(ray.depth(8).x, found, 2e-9) << k;
             EXPECT_NEAR(ray.depth(4.7).x, media.optical_depth(o, d, -4, 0.7, true, 1e-10).x, 2e-9) << k;
