@@ -24,6 +24,10 @@ template <class M>
 bool does_nothing(const M& medium) {
     return is_zero(medium.sigma_s) && is_zero(medium.sigma_a) && is_zero(medium.emission);
 }
+/// No extent, or none that makes sense: it holds no point, and dividing by it would give NaN.
+bool is_empty(const LocalMedium& medium) {
+    return !glm::all(glm::greaterThan(medium.half_extent, glm::vec3(0)));
+}
 /// Beyond the rounding of sigma_s + sigma_a.
 bool is_coloured(glm::vec3 sigma_t) {
     const float most = std::max({sigma_t.r, sigma_t.g, sigma_t.b});
@@ -84,7 +88,7 @@ void add_local(const LocalMedium& medium, FrameMedia& media) {
 
 void add_local_in_view(const Inputs& inputs, const FroxelGrid& grid, FrameMedia& media) {
     for (const LocalMedium& medium : inputs.local) {
-        if (does_nothing(medium)) continue;
+        if (does_nothing(medium) || is_empty(medium)) continue;
         const IndexBox box = froxel_bounds(medium, inputs, grid);
         if (box.empty()) continue;
         add_local(medium, media);
