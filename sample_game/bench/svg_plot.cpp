@@ -12,8 +12,8 @@
 namespace tyndall::bench {
 namespace {
 
-constexpr glm::dvec2 page{960, 560};
-constexpr glm::dvec2 low_corner{78, 488};   ///< of the axes, px
+constexpr glm::dvec2 page{960, 560};        ///< wider where the legend is
+constexpr glm::dvec2 low_corner{92, 488};   ///< of the axes, px
 constexpr glm::dvec2 high_corner{690, 66};  ///< the opposite one
 constexpr double legend_x = 714;
 const std::string grid = "#e6e6e6", fine_grid = "#f4f4f4", ink = "#333333", faint = "#6b6b6b";
@@ -163,7 +163,9 @@ std::string svg_plot(const Plot& plot) {
             for (const glm::dvec2 p : curve) frame.add(p);
     }
     frame.close();
-    Svg svg(page);
+    std::size_t longest = 0;
+    for (const PlotSeries& s : plot.series) longest = std::max(longest, s.name.size());
+    Svg svg({std::max(page.x, legend_x + 26 + 6.6 * static_cast<double>(longest)), page.y});
     draw_axes(svg, plot, frame);
     for (const PlotSeries& s : plot.series) {
         for (const auto& curve : s.faint_curves) svg.polyline(path_of(curve, frame), s.color, 1, 0.18);
