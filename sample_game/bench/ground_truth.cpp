@@ -25,6 +25,7 @@ std::array<Image*, 4> images(GroundTruth& truth) {
 
 GroundTruth from_cpu(const Session& session, const View& view, const Point& point) {
     reference::Settings settings;
+    settings.light_transmittance = point.light_transmittance;
     settings.ambient = session.options.render.ambient;
     const reference::Reference integrator(session.scene, settings);
     Progress progress("reference of " + point.place->name + ", row", point.size.y);
@@ -37,6 +38,7 @@ GroundTruth from_cpu(const Session& session, const View& view, const Point& poin
 GroundTruth from_gpu(Session& session, const View& view, const Point& point) {
     session.settings.reset_to_defaults();
     session.settings.set("technique", "reference");
+    session.settings.set("light_transmittance", point.light_transmittance ? "true" : "false");
     session.size = point.size;
     session.options.frame_index = 0;
     std::vector<Image> drawn = draw_layers(session, view, point.place->time, layers);

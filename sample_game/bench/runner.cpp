@@ -104,6 +104,7 @@ void Runner::open(const Group& group) {
 View Runner::show(const Point& point) {
     session_->settings.reset_to_defaults();
     for (const std::string& assignment : point.configuration.settings) session_->settings.set(assignment);
+    if (!point.light_transmittance) session_->settings.set("light_transmittance", "false");
     session_->size = point.size;
     animate(session_->scene, point.place->time);
     const View view = camera_view(session_->scene, point.place->camera,

@@ -102,13 +102,15 @@ std::vector<Group> smoke_groups(const Place& place, const PlaceFacts& facts, con
     return {group};
 }
 
-/// Undithered steps against eight dithered and blurred ones.
+/// Undithered steps against eight dithered and blurred ones. Light reaches the medium unattenuated, as in the
+/// thesis: the march does not know what local media take of it, and that error would be all there is to see.
 std::vector<Group> headline_groups(const Place& place, const PlaceFacts& facts, const SuiteRequest& request) {
     Group group{place.name, {}, facts, true};
     group.points.push_back(point(place, request.size, with_count(standard, {}, "steps", 8), "steps", 8));
     for (const int steps : {8, 11, 16, 23, 32, 45, 64, 91, 128, 181, 256, 362, 512})
         group.points.push_back(
             point(place, request.size, with_count("march, undithered", {}, "steps", steps), "steps", steps));
+    for (Point& p : group.points) p.light_transmittance = false;
     return {group};
 }
 

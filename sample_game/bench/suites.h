@@ -30,6 +30,7 @@ struct Point {
     const Place* place = nullptr;
     glm::ivec2 size{0};
     SceneEdit edit;
+    bool light_transmittance = true;  ///< of the ground truth and the technique alike
     std::string variable;  ///< what `value` counts: steps, pixels, lamps …
     double value = 0;
     Configuration configuration;
