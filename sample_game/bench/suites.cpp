@@ -114,6 +114,7 @@ std::vector<Group> headline_groups(const Place& place, const PlaceFacts& facts, 
     return {group};
 }
 
+/// Without attenuation of the light, as above: else the march converges to another limit where media are local.
 std::vector<Group> convergence_groups(const Place& place, const PlaceFacts& facts, const SuiteRequest& request) {
     Group group{place.name, {}, facts};
     std::vector<std::string> lamp_rules{""};
@@ -126,6 +127,7 @@ std::vector<Group> convergence_groups(const Place& place, const PlaceFacts& fact
                 group.points.push_back(
                     point(place, request.size, with_count(name, settings, "steps", steps, rule), "steps", steps));
             }
+    for (Point& p : group.points) p.light_transmittance = false;
     return {group};
 }
 
