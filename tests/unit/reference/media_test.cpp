@@ -269,7 +269,8 @@ TEST(ReferenceMedia, WhatDoesNothingIsAbsent) {
 
 TEST(ReferenceMedia, ARayEndsWhereNothingComesThrough) {
     const double dense = double(2.0f) + double(0.2f);
-    const MediaRay ray(Media({medium(Shape::global, 2, 0.2f)}), dvec3(0), dvec3(0, 0, 1), infinity, 1e-9);
+    const Media media({medium(Shape::global, 2, 0.2f)});
+    const MediaRay ray(media, dvec3(0), dvec3(0, 0, 1), infinity, 1e-9);
     EXPECT_NEAR(ray.end(), 45 / dense, 0.1);
     EXPECT_EQ(glm::exp(-ray.depth(infinity)), dvec3(0));
 }
