@@ -16,8 +16,8 @@ struct FroxelMedia {
 /// What all passes of one frame share.
 struct PassResources {
     ShaderLibrary& shaders;
-    gl::Sampler nearest, linear;
-    gl::Buffer uniforms, local_media, media_tiles, dither, unfinished;
+    gl::Sampler nearest = {}, linear = {};
+    gl::Buffer uniforms = {}, local_media = {}, media_tiles = {}, dither = {}, unfinished = {};
 };
 
 [[nodiscard]] FroxelMedia add_inject_media(PassList& passes, const PassResources& resources, const Inputs& inputs,
@@ -27,6 +27,17 @@ struct PassResources {
 /// Light and transmittance of froxels, interpolated at each pixel's depth; no blur follows.
 [[nodiscard]] Outputs add_froxel(PassList& passes, const PassResources& resources, const Inputs& inputs,
                                  const Settings& settings, const FrameMedia& media, const FroxelMedia& froxels);
+/// The approaches that froxels are compared with. Each says in its file what it models and what it cannot.
+[[nodiscard]] Outputs add_billboards(PassList& passes, PassResources& resources, const Inputs& inputs,
+                                     const Settings& settings, const FrameMedia& media);
+[[nodiscard]] Outputs add_particles(PassList& passes, PassResources& resources, const Inputs& inputs,
+                                    const Settings& settings, const FrameMedia& media);
+[[nodiscard]] Outputs add_shaft_geometry(PassList& passes, PassResources& resources, const Inputs& inputs,
+                                         const Settings& settings, const FrameMedia& media);
+[[nodiscard]] Outputs add_analytic_fog(PassList& passes, PassResources& resources, const Inputs& inputs,
+                                       const Settings& settings, const FrameMedia& media);
+[[nodiscard]] Outputs add_radial_shafts(PassList& passes, PassResources& resources, const Inputs& inputs,
+                                        const Settings& settings, const FrameMedia& media);
 /// Brute force in RGBA32F; `transmittance` is always given.
 [[nodiscard]] Outputs add_reference(PassList& passes, PassResources& resources, const Inputs& inputs,
                                     const Settings& settings, const FrameMedia& media);

@@ -116,7 +116,9 @@ const SettingsTable& settings_table() {
 }
 
 const std::vector<std::string>& technique_names() {
-    static const std::vector<std::string> names{"off", "ray_march", "froxel", "reference"};
+    static const std::vector<std::string> names{"off",          "ray_march",     "froxel",
+                                                "billboards",   "particles",     "shaft_geometry",
+                                                "analytic_fog", "radial_shafts", "reference"};
     return names;
 }
 

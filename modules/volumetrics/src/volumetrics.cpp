@@ -1,5 +1,9 @@
 #include "volumetrics/volumetrics.h"
 
+#include <algorithm>
+#include <map>
+#include <set>
+#include <string_view>
 #include <tuple>
 
 #include "dither.h"
@@ -11,29 +15,38 @@
 namespace tyndall::volumetrics {
 namespace {
 
-constexpr const char* inject_pass = "volumetrics/inject_media";
-constexpr const char* composite_pass = "volumetrics/composite";
+/// Passes that not every technique has, so that a frame's list says of each why it is not there.
+const std::map<Technique, std::vector<const char*>>& passes_of() {
+    static const std::map<Technique, std::vector<const char*>> names{
+        {Technique::ray_march,
+         {"volumetrics/inject_media", "volumetrics/march", "volumetrics/blur_horizontal",
+          "volumetrics/blur_vertical"}},
+        {Technique::froxel, {"volumetrics/inject_media"}},
+    };
+    return names;
+}
 
-constexpr const char* march_pass = "volumetrics/march";
-constexpr const char* blur_passes[] = {"volumetrics/blur_horizontal", "volumetrics/blur_vertical"};
+void skip_others(PassList& passes, Technique technique) {
+    const std::string reason = "technique is " + technique_names()[static_cast<std::size_t>(technique)];
+    const auto own = passes_of().find(technique);
+    std::set<std::string_view> done;
+    for (const auto& [other, names] : passes_of())
+        for (const char* name : names) {
+            const bool owned =
+                own != passes_of().end() && std::ranges::count(own->second, std::string_view(name)) > 0;
+            if (!owned && done.insert(name).second) passes.skip(name, reason);
+        }
+}
 
 void skip_all(PassList& passes, const std::string& reason) {
-    for (const char* name : {inject_pass, march_pass, blur_passes[0], blur_passes[1], composite_pass})
-        passes.skip(name, reason);
+    for (const char* name : passes_of().at(Technique::ray_march)) passes.skip(name, reason);
+    passes.skip("volumetrics/composite", reason);
 }
 
 }  // namespace
 
 struct Volumetrics::Impl {
-    explicit Impl(ShaderLibrary& shaders)
-        : resources{.shaders = shaders,
-                    .nearest = {},
-                    .linear = {},
-                    .uniforms = {},
-                    .local_media = {},
-                    .media_tiles = {},
-                    .dither = {},
-                    .unfinished = {}} {}
+    explicit Impl(ShaderLibrary& shaders) : resources{.shaders = shaders} {}
 
     PassResources resources;
     FrameMedia media;
@@ -53,6 +66,47 @@ struct Volumetrics::Impl {
         const std::vector<std::uint32_t> tiles = live_tiles(media.local_froxels, froxels);
         media.live_tiles = tiles.size() / (1 + (media.local_froxels.size() + 31) / 32);
         resources.media_tiles.assign(std::span<const std::uint32_t>(tiles), "volumetrics media tiles");
+    }
+
+    FroxelMedia add_local_media(PassList& passes, const Inputs& inputs, const Settings& settings) {
+        if (!media.local.empty()) return add_inject_media(passes, resources, inputs, settings, media);
+        passes.skip("volumetrics/inject_media", "no local medium in view");
+        return {};
+    }
+
+    Outputs add_ray_march(PassList& passes, const Inputs& inputs, const Settings& settings) {
+        const FroxelMedia froxels = add_local_media(passes, inputs, settings);
+        const Outputs outputs = add_march(passes, resources, inputs, settings, media, froxels);
+        if (settings.blur != Blur::none) return add_blur(passes, resources, inputs, settings, outputs);
+        for (const char* name : {"volumetrics/blur_horizontal", "volumetrics/blur_vertical"})
+            passes.skip(name, "blur is none");
+        return outputs;
+    }
+
+    Outputs add_technique(PassList& passes, const Inputs& inputs, const Settings& settings) {
+        switch (settings.technique) {
+            case Technique::off:
+                return {};
+            case Technique::ray_march:
+                return add_ray_march(passes, inputs, settings);
+            case Technique::froxel: {
+                const FroxelMedia froxels = add_local_media(passes, inputs, settings);
+                return add_froxel(passes, resources, inputs, settings, media, froxels);
+            }
+            case Technique::billboards:
+                return add_billboards(passes, resources, inputs, settings, media);
+            case Technique::particles:
+                return add_particles(passes, resources, inputs, settings, media);
+            case Technique::shaft_geometry:
+                return add_shaft_geometry(passes, resources, inputs, settings, media);
+            case Technique::analytic_fog:
+                return add_analytic_fog(passes, resources, inputs, settings, media);
+            case Technique::radial_shafts:
+                return add_radial_shafts(passes, resources, inputs, settings, media);
+            case Technique::reference:
+                return add_reference(passes, resources, inputs, settings, media);
+        }
+        return {};
     }
 
     void upload(const Settings& settings) {
@@ -103,25 +157,8 @@ Outputs Volumetrics::add_passes(PassList& passes, const Inputs& inputs, const Se
         return {};
     }
     TYNDALL_CHECK(impl_->resources.uniforms);  // prepare came first
-    if (settings.technique == Technique::reference) {
-        for (const char* name : {inject_pass, march_pass, blur_passes[0], blur_passes[1]})
-            passes.skip(name, "technique is reference");
-        return add_reference(passes, impl_->resources, inputs, settings, media);
-    }
-    FroxelMedia froxels;
-    if (media.local.empty())
-        passes.skip(inject_pass, "no local medium in view");
-    else
-        froxels = add_inject_media(passes, impl_->resources, inputs, settings, media);
-    if (settings.technique == Technique::froxel) {
-        for (const char* name : {march_pass, blur_passes[0], blur_passes[1]})
-            passes.skip(name, "technique is froxel");
-        return add_froxel(passes, impl_->resources, inputs, settings, media, froxels);
-    }
-    Outputs outputs = add_march(passes, impl_->resources, inputs, settings, media, froxels);
-    if (settings.blur != Blur::none) return add_blur(passes, impl_->resources, inputs, settings, outputs);
-    for (const char* name : blur_passes) passes.skip(name, "blur is none");
-    return outputs;
+    skip_others(passes, settings.technique);
+    return impl_->add_technique(passes, inputs, settings);
 }
 
 TextureRef Volumetrics::composite(PassList& passes, const Outputs& outputs, TextureRef color) {

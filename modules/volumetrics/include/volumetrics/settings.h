@@ -4,7 +4,17 @@
 
 namespace tyndall::volumetrics {
 
-enum class Technique { off, ray_march, froxel, reference };
+enum class Technique {
+    off,
+    ray_march,
+    froxel,
+    billboards,
+    particles,
+    shaft_geometry,
+    analytic_fog,
+    radial_shafts,
+    reference
+};
 enum class LampIntegration { center, segment };
 enum class Stepping { uniform, exponential };
 enum class Dither { none, white, bayer };
