@@ -52,20 +52,34 @@ float visibility_smith(float n_dot_l, float n_dot_v, float alpha) {
 // part does not know how much the specular one took in all: a white dielectric seen at cos 0.05 reflects 1.03 times
 // what it receives at roughness 0.8, 1.7 times at 0.05; metals, and anything seen from above 45 degrees, never more
 // than 1.
-vec3 brdf_metallic_roughness(vec3 base_color, float metallic, float roughness, float dielectric_f0, vec3 n, vec3 v,
-                             vec3 l) {
+struct BrdfLobes {
+    vec3 diffuse;
+    vec3 specular;
+};
+
+BrdfLobes brdf_lobes(vec3 base_color, float metallic, float roughness, float dielectric_f0, vec3 n, vec3 v, vec3 l) {
     float n_dot_l = dot(n, l);
+    BrdfLobes lobes;
+    lobes.diffuse = vec3(0.0f);
+    lobes.specular = vec3(0.0f);
     if (n_dot_l <= 0.0f) {
-        return vec3(0.0f);
+        return lobes;
     }
     vec3 h = normalize(l + v);
     float alpha = brdf_alpha(roughness);
     float n_dot_v = max(abs(dot(n, v)), 1.0e-4f);
     vec3 f0 = mix(vec3(dielectric_f0), base_color, metallic);
     vec3 fresnel = fresnel_schlick(f0, brdf_f90(dielectric_f0, metallic), dot(v, h));
-    vec3 diffuse = (1.0f - fresnel) * base_color * ((1.0f - metallic) / BRDF_PI);
-    float specular = distribution_ggx(clamp(dot(n, h), 0.0f, 1.0f), alpha) * visibility_smith(n_dot_l, n_dot_v, alpha);
-    return diffuse + fresnel * specular;
+    lobes.diffuse = (1.0f - fresnel) * base_color * ((1.0f - metallic) / BRDF_PI);
+    lobes.specular = fresnel * (distribution_ggx(clamp(dot(n, h), 0.0f, 1.0f), alpha) *
+                                visibility_smith(n_dot_l, n_dot_v, alpha));
+    return lobes;
+}
+
+vec3 brdf_metallic_roughness(vec3 base_color, float metallic, float roughness, float dielectric_f0, vec3 n, vec3 v,
+                             vec3 l) {
+    BrdfLobes lobes = brdf_lobes(base_color, metallic, roughness, dielectric_f0, n, v, l);
+    return lobes.diffuse + lobes.specular;
 }
 
 // Directional albedo of the specular lobe, int f_specular (n.l) dl = f0 * x + f90 * y: the split sum of Karis 2013 ("Real

@@ -1,0 +1,113 @@
+// Light that a surface sends to the eye, deferred and forward alike: sun, clustered lamps and sky. Linear radiance, cd/m².
+// Diffuse and specular apart: glass lets the one through and not the other.
+#ifndef ENGINE_SURFACE_SHADING_GLSL
+#define ENGINE_SURFACE_SHADING_GLSL
+
+#include "shaders/engine/light_data.glsl"
+#include "shaders/lib/brdf.glsl"
+#include "shaders/lib/depth.glsl"
+#include "shaders/lib/lamp_segment.glsl"
+#include "shaders/lib/work.glsl"
+#if SHADOWS
+#include "shaders/engine/shadow_lookup.glsl"
+#endif
+#if MEDIUM_TRANSMITTANCE
+#include "shaders/volumetrics/light_transmittance.glsl"
+#endif
+
+layout(binding = 5) uniform samplerCube sky;  // radiance, mipped
+
+struct Surface {
+    vec2 uv;  // on the screen, 0..1
+    vec3 world, normal, to_eye;
+    float view_depth;
+    vec3 base_color;
+    float roughness, metallic, occlusion, dielectric_f0;
+};
+
+struct Reflected {
+    vec3 diffuse;
+    vec3 specular;
+};
+
+void add_light(Surface s, vec3 to_light, vec3 illuminance, inout Reflected sum) {
+    BrdfLobes lobes = brdf_lobes(s.base_color, s.metallic, s.roughness, s.dielectric_f0, s.normal, s.to_eye, to_light);
+    illuminance *= max(dot(s.normal, to_light), 0.0);
+    sum.diffuse += lobes.diffuse * illuminance;
+    sum.specular += lobes.specular * illuminance;
+}
+
+#if HAS_SUN
+void add_sun(Surface s, inout Reflected sum) {
+    vec3 to_sun = -frame.sun_direction.xyz;
+    vec3 illuminance = frame.sun_illuminance.rgb;
+#if SHADOWS
+    illuminance *= sun_shadow_surface(s.world, s.normal, s.view_depth);
+#endif
+#if MEDIUM_TRANSMITTANCE
+    illuminance *= medium_light_transmittance(s.world, to_sun, -1.0);
+#endif
+    count_work(WORK_LIGHT_EVALUATIONS, 1u);
+    add_light(s, to_sun, illuminance, sum);
+}
+#endif
+
+#if HAS_LAMPS
+void add_lamps(Surface s, inout Reflected sum) {
+    ClusterRange range = cluster_at(s.uv, s.view_depth);
+    count_work(WORK_LIGHT_EVALUATIONS, range.count);
+    for (uint i = 0u; i < range.count; ++i) {
+        GpuLight light = lights[cluster_lights[range.offset + i]];
+        vec3 offset = light.position_range.xyz - s.world;
+        float d2 = dot(offset, offset);
+        float d = sqrt(d2);
+        vec3 to_light = offset / max(d, 1e-6);
+        float attenuation = lamp_attenuation(d2, light.intensity_radius.w, 1.0 / light.position_range.w) *
+                            spot_cone(-dot(to_light, light.direction_type.xyz), light.cone_shadow.xy);
+        if (attenuation <= 0.0 || dot(s.normal, to_light) <= 0.0) continue;
+        vec3 illuminance = light.intensity_radius.rgb * attenuation;
+#if SHADOWS
+        illuminance *= light_shadow_surface(light, s.world, s.normal);
+#endif
+#if MEDIUM_TRANSMITTANCE
+        illuminance *= medium_light_transmittance(s.world, to_light, d);
+#endif
+        add_light(s, to_light, illuminance, sum);
+    }
+}
+#endif
+
+#if HAS_AMBIENT
+// The mip that blurs the sky about as much as the lobe: with a box filter each level doubles the angle a texel spans.
+void add_ambient(Surface s, inout Reflected sum) {
+    float n_dot_v = min(abs(dot(s.normal, s.to_eye)), 1.0);
+    vec3 f0 = mix(vec3(s.dielectric_f0), s.base_color, s.metallic);
+    vec2 scale = specular_albedo_scale(s.roughness, n_dot_v);
+    vec3 specular = f0 * scale.x + brdf_f90(s.dielectric_f0, s.metallic) * scale.y;
+    vec3 diffuse = (1.0 - specular) * (1.0 - s.metallic) * s.base_color;
+    float levels = float(textureQueryLevels(sky) - 1);
+    float level = levels * sqrt(s.roughness) * 0.9;
+    vec3 mirrored = textureLod(sky, reflect(-s.to_eye, s.normal), level).rgb;
+    // A rough lobe sees what the occlusion lets through, a sharp one less of it (Lagarde and de Rousiers 2014, 4.10).
+    float specular_occlusion =
+        clamp(pow(n_dot_v + s.occlusion, exp2(-16.0 * s.roughness - 1.0)) - 1.0 + s.occlusion, 0.0, 1.0);
+    sum.diffuse += diffuse * textureLod(ambient_cube, s.normal, 0.0).rgb * (s.occlusion * frame.exposure.y);
+    sum.specular += specular * mirrored * (specular_occlusion * frame.exposure.y);
+}
+#endif
+
+Reflected surface_light(Surface s) {
+    Reflected sum = Reflected(vec3(0.0), vec3(0.0));
+#if HAS_SUN
+    add_sun(s, sum);
+#endif
+#if HAS_LAMPS
+    add_lamps(s, sum);
+#endif
+#if HAS_AMBIENT
+    add_ambient(s, sum);
+#endif
+    return sum;
+}
+
+#endif
