@@ -184,6 +184,55 @@ float lamp_segment_integral(LampSegment segment) {
     return dot(segment.weight, vec4(1.0f));
 }
 
+// A spot's cone seen from a ray: with u = h tan(phi) the cosine between its axis and the direction to a point of the ray
+// is along cos(phi) + across sin(phi), where `along` is the cosine to the point nearest to the lamp and `across` that to
+// the ray's direction.
+float cone_at_angle(float along, float across, float phi, vec2 scale_offset) {
+    return spot_cone(along * cos(phi) + across * sin(phi), scale_offset);
+}
+
+// int spot_cone dphi by three nodes of Gauss-Legendre: for intervals without the kink of the clamp at 1.
+float cone_over_angle(float along, float across, float begin, float end, vec2 scale_offset) {
+    float middle = 0.5f * (begin + end);
+    float offset = 0.38729833f * (end - begin);
+    return (end - begin) / 18.0f *
+           (5.0f * cone_at_angle(along, across, middle - offset, scale_offset) +
+            8.0f * cone_at_angle(along, across, middle, scale_offset) +
+            5.0f * cone_at_angle(along, across, middle + offset, scale_offset));
+}
+
+// What the four nodes of lamp_segment make of a spot's cone is to be multiplied by this: their sum is up to a half off
+// where a kink of the cone's law lies between them, and as near to the lamp as u ~ h no segment is short enough to help.
+// [t_begin, t_end] lies in the outer cone. The mean of the cone over the angle seen from the lamp, its plateau apart from
+// its two flanks, over the mean at the nodes; 1 where all of the segment is on the plateau, or meets the lamp's sphere.
+float lamp_segment_cone_correction(LampSegment segment, LampRay ray, float t_begin, float t_end, float radius,
+                                   float along, float across, vec2 scale_offset) {
+    float h = ray.h;
+    float rule = lamp_segment_integral(segment);
+    if (h <= max(radius, LAMP_MIN_RADIUS) || rule <= 0.0f) {
+        return 1.0f;
+    }
+    vec4 u = segment.t - ray.t_closest;
+    vec4 d = sqrt(h * h + u * u);
+    vec4 cos_axis = (along * h + across * u) / d;
+    float at_nodes = segment.weight.x * spot_cone(cos_axis.x, scale_offset) +
+                     segment.weight.y * spot_cone(cos_axis.y, scale_offset) +
+                     segment.weight.z * spot_cone(cos_axis.z, scale_offset) +
+                     segment.weight.w * spot_cone(cos_axis.w, scale_offset);
+    float begin = atan(t_begin - ray.t_closest, h);
+    float end = atan(t_end - ray.t_closest, h);
+    // On the plateau |phi - peak| <= half_width.
+    float peak = atan(across, along);
+    float most = sqrt(along * along + across * across);
+    float half_width = acos(clamp((1.0f - scale_offset.y) / max(scale_offset.x * most, 1.0e-20f), -1.0f, 1.0f));
+    float enter = clamp(peak - half_width, begin, end);
+    float leave = clamp(peak + half_width, begin, end);
+    float mean = (cone_over_angle(along, across, begin, enter, scale_offset) + (leave - enter) +
+                  cone_over_angle(along, across, leave, end, scale_offset)) /
+                 max(end - begin, 1.0e-20f);
+    return at_nodes > 1.0e-6f * rule && end - begin > 1.0e-5f ? mean * rule / at_nodes : 1.0f;
+}
+
 // The mean of t by weight: the representative point of a single sample, as of visibility. t_begin where all weights
 // are 0.
 float lamp_segment_mean(LampSegment segment) {
