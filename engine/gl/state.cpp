@@ -20,6 +20,8 @@ void apply_blend(Blend blend) {
     // Premultiplied: alpha is a transmittance, and transmittances multiply.
     if (blend == Blend::premultiplied)
         glBlendFuncSeparate(GL_ONE, GL_SRC_ALPHA, GL_ZERO, GL_SRC_ALPHA);
+    else if (blend == Blend::over)
+        glBlendFuncSeparate(GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
     else
         glBlendFunc(GL_ONE, GL_ONE);
 }

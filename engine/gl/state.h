@@ -6,7 +6,8 @@
 
 namespace tyndall::gl {
 
-enum class Blend { none, premultiplied, add };  ///< premultiplied: dst = src + dst * src.a
+/// premultiplied: dst = src + dst * src.a; over: dst.rgb = src.rgb + dst.rgb * (1 - src.a).
+enum class Blend { none, premultiplied, add, over };
 
 /// All fixed-function state a draw depends on, set as a whole: nothing leaks from pass to pass.
 /// Depth is reversed (greater is nearer), clip depth 0..1 with the origin at the lower left.

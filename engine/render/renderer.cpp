@@ -20,6 +20,7 @@
 #include "engine/render/passes/shadow_sun.h"
 #include "engine/render/passes/sky.h"
 #include "engine/render/passes/tonemap.h"
+#include "engine/render/passes/transparent.h"
 #include "engine/render/volumetrics_adapter.h"
 #include "shaders/shared/bindings.h"
 #include "volumetrics/volumetrics.h"
@@ -42,6 +43,7 @@ struct Renderer::Impl {
     GBufferPass gbuffer;
     ClusterPass cluster;
     SkyPass sky;
+    TransparentPass transparent;
 
     TransientPool pool;
     PassList passes;
@@ -149,11 +151,15 @@ void Renderer::Impl::add_passes(FrameContext& frame, LightSources& sources, cons
     sources = add_lights(frame, g, sun);
 
     volumetrics::Inputs media = volumetrics_inputs(frame);
-    add_lighting_inputs(media, sources, g.depth);
+    add_lighting_inputs(media, sources, lights, g.depth);
+    media.transparents = transparent.gather(frame);
     volumetrics->prepare(media, options.volumetrics);
-    const bool transmittance = facts.has_global_medium && options.volumetrics.light_transmittance &&
-                               options.volumetrics.technique != volumetrics::Technique::off;
-    if (transmittance) {
+    const volumetrics::LightTransmittance transmittance =
+        volumetrics->add_light_passes(passes, media, options.volumetrics);
+    if (transmittance.any) {
+        sources.light_volumes = transmittance.light_volumes;
+        for (const TextureRef volume : {transmittance.sun_volume, transmittance.lamp_volumes})
+            if (volume) sources.textures.push_back(volume);
         sources.medium_transmittance = true;
         sources.bind = [this, bind = sources.bind] {
             bind();
@@ -166,6 +172,7 @@ void Renderer::Impl::add_passes(FrameContext& frame, LightSources& sources, cons
     radiance = sky.add_background(frame, {sources.sky, {}}, g.depth, radiance);
     const volumetrics::Outputs media_light = volumetrics->add_passes(passes, media, options.volumetrics);
     radiance = volumetrics->composite(passes, media_light, radiance);
+    radiance = transparent.add(frame, g, sources, *volumetrics, media_light.fog, radiance);
     const TextureRef shown = add_tonemap(frame, radiance, passes.import("display", display));
     passes.export_texture(shown);
 

@@ -169,6 +169,7 @@ void load_node(const GltfFile& file, const tinygltf::Node& from, int parent,
     if (const auto* light = file.extension(from, "KHR_lights_punctual", "light"))
         node.light = load_light(file, light->GetNumberAsInt(), id, scene, what);
     if (from.mesh != -1) node.meshes = file.at(meshes, from.mesh, what + ": mesh");
+    load_particles(file, extra, id, scene, what);
     scene.nodes.push_back(node);
     if (from.extensions.contains("EXT_mesh_gpu_instancing")) load_instances(file, from, scene, what);
 }

@@ -14,6 +14,8 @@ void load_materials(const GltfFile& file, Scene& scene);
 /// Nodes with their lights and cameras. Returns, for each node of the file, the scene's; -1 outside the scene.
 [[nodiscard]] std::vector<int> load_nodes(const GltfFile& file, const std::vector<std::vector<int>>& meshes,
                                           Scene& scene);
+/// The node's emitter, if its extras have one.
+void load_particles(const GltfFile& file, const Json& extras, int node, Scene& scene, const std::string& what);
 void load_animations(const GltfFile& file, const std::vector<int>& nodes, Scene& scene);
 
 }  // namespace tyndall::gltf

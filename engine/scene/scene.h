@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "engine/scene/medium.h"
+#include "engine/scene/particles.h"
 
 namespace tyndall {
 
@@ -128,6 +129,7 @@ struct Scene {
     std::vector<Camera> cameras;
     std::vector<Animation> animations;
     std::vector<Medium> media;  ///< scene extras.media
+    std::vector<ParticleEmitter> emitters;  ///< node extras.particles
     float exposure_ev100 =
         0;        ///< scene extras.exposure, or what suits its sun: a luminance of 1.2 * 2^EV shows as 1
     Aabb bounds;  ///< world, of all meshes at time 0

@@ -7,6 +7,7 @@
 #include "shaders/lib/brdf.glsl"
 #include "shaders/lib/depth.glsl"
 #include "shaders/lib/lamp_segment.glsl"
+#include "shaders/lib/octahedral.glsl"
 #include "shaders/lib/work.glsl"
 #if SHADOWS
 #include "shaders/engine/shadow_lookup.glsl"
@@ -45,7 +46,7 @@ void add_sun(Surface s, inout Reflected sum) {
     illuminance *= sun_shadow_surface(s.world, s.normal, s.view_depth);
 #endif
 #if MEDIUM_TRANSMITTANCE
-    illuminance *= medium_light_transmittance(s.world, to_sun, -1.0);
+    illuminance *= medium_sun_transmittance(s.world, to_sun);
 #endif
     count_work(WORK_LIGHT_EVALUATIONS, 1u);
     add_light(s, to_sun, illuminance, sum);
@@ -57,7 +58,8 @@ void add_lamps(Surface s, inout Reflected sum) {
     ClusterRange range = cluster_at(s.uv, s.view_depth);
     count_work(WORK_LIGHT_EVALUATIONS, range.count);
     for (uint i = 0u; i < range.count; ++i) {
-        GpuLight light = lights[cluster_lights[range.offset + i]];
+        uint index = cluster_lights[range.offset + i];
+        GpuLight light = lights[index];
         vec3 offset = light.position_range.xyz - s.world;
         float d2 = dot(offset, offset);
         float d = sqrt(d2);
@@ -70,7 +72,7 @@ void add_lamps(Surface s, inout Reflected sum) {
         illuminance *= light_shadow_surface(light, s.world, s.normal);
 #endif
 #if MEDIUM_TRANSMITTANCE
-        illuminance *= medium_light_transmittance(s.world, to_light, d);
+        illuminance *= medium_lamp_transmittance(index, s.world, to_light, d);
 #endif
         add_light(s, to_light, illuminance, sum);
     }
@@ -80,6 +82,7 @@ void add_lamps(Surface s, inout Reflected sum) {
 #if HAS_AMBIENT
 // The mip that blurs the sky about as much as the lobe: with a box filter each level doubles the angle a texel spans.
 void add_ambient(Surface s, inout Reflected sum) {
+    if (frame.exposure.y <= 0.0) return;
     float n_dot_v = min(abs(dot(s.normal, s.to_eye)), 1.0);
     vec3 f0 = mix(vec3(s.dielectric_f0), s.base_color, s.metallic);
     vec2 scale = specular_albedo_scale(s.roughness, n_dot_v);

@@ -18,6 +18,9 @@
 #define BINDING_DITHER 8
 #define BINDING_MEDIA_TILES 9
 #define BINDING_UNFINISHED 10
+#define BINDING_SPRITES 11
+#define BINDING_LAMP_VOLUMES 12
+#define BINDING_PARTICLES 13
 #define BINDING_WORK 15
 
 // Texture units of the lighting contract; passes use units 0-7 for their own textures.
@@ -25,5 +28,12 @@
 #define UNIT_SUN_STATIC 9
 #define UNIT_SHADOW_ATLAS 10
 #define UNIT_AMBIENT 11
+#define UNIT_SUN_VOLUME 12
+#define UNIT_LAMP_VOLUMES 13
+
+// What shaders/volumetrics/apply.glsl samples, beside the textures of the pass that includes it.
+#define UNIT_FOG_COLUMNS 6
+#define UNIT_FOG_RADIANCE 7
+#define UNIT_FOG_OPTICAL_DEPTH 14
 
 #endif

@@ -8,12 +8,18 @@
 #define SHAPE_ELLIPSOID 0
 #define SHAPE_BOX 1
 
+#define FOG_LINEAR 0
+#define FOG_SQUARED 1
+#define FOG_EXPONENTIAL 2
+#define FOG_HEIGHT 3
+
 SHARED_BEGIN
 
 struct HeightMedium {
     vec4 sigma_s_base;     // rgb 1/m at density 1, w base (m)
     vec4 sigma_t_falloff;  // rgb 1/m at density 1, w falloff (m)
     vec4 emission_g;       // rgb radiance per metre at density 1, w anisotropy
+    vec4 sigma_s_rayleigh; // rgb 1/m at density 1: the part of sigma_s with Rayleigh's phase function
 };
 
 struct LocalMedium {
@@ -30,14 +36,21 @@ struct VolumetricsData {
     mat4 inverse_view;
     vec4 eye;                   // xyz world, w near (m)
     vec4 viewport;              // width, height, 1/width, 1/height of the march target, px
-    vec4 homogeneous_sigma_s;   // rgb 1/m, w anisotropy (weighted by scattering over the homogeneous media)
+    vec4 homogeneous_sigma_s;   // rgb 1/m, w anisotropy (weighted by scattering over the homogeneous media, Rayleigh's left out)
     vec4 homogeneous_sigma_t;   // rgb 1/m
     vec4 homogeneous_emission;  // rgb radiance per metre
+    vec4 homogeneous_rayleigh;  // rgb 1/m: the part of sigma_s with Rayleigh's phase function
     uvec4 counts;               // x height media, y local media, z steps, w side of the dither tile (px)
     uvec4 options;              // x PHASE_*, y 1: light is attenuated on its way in, z 1: ambient light, w FROXEL_*
-    vec4 march;                 // x max distance (m), y first step / ray length, z each step / the one before
+    vec4 phase_back;            // x anisotropy, y weight of the back lobe (PHASE_DOUBLE_HENYEY_GREENSTEIN)
+    vec4 march;                 // x max distance (m), y first step / ray length, z each step / the one before; w 1: froxels have an optical depth by channel
     vec4 froxel_depths;         // x nearest, y farthest view depth (m) of the froxel volume; z jitter 0..1, < 0: none
     vec4 medium_depths;         // x nearest, y farthest view depth (m) at which the march finds a medium
+    vec4 fog;                   // x FOG_*, y samples to the light, z weight at the light, w visibility of an unseen sun
+    mat4 froxel_begins;         // FROXEL_TABLE: view depth (m) where each of 16 equal shares of the slices begins
+    mat4 froxel_lengths;        // and their lengths (m); entry i is [i / 4][i % 4]
+    mat4 world_to_sun_volume;   // world to texture xyz of the sun volume, see light_transmittance.glsl
+    vec4 lamp_volumes;          // x directions across and y distances of a lamp's volume, zw 1 / size of the atlas, texels
     HeightMedium height[MAX_HEIGHT_MEDIA];
 };
 

@@ -1,17 +1,8 @@
-// The froxels' light and transmittance at each pixel's depth. Between slices it is interpolated as a medium lit alike
-// gathers light, so that the last slice ends at the surface; between the four columns around the pixel linearly, without
-// those that end long before its depth. The transmittance of the global media is closed form, and so is what they scatter
-// behind the end of the froxels.
+// The froxels' light and transmittance at each pixel's depth.
 #include "shaders/lib/pack.glsl"
-#include "shaders/volumetrics/froxel_grid.glsl"
-#include "shaders/volumetrics/segment.glsl"
+#include "shaders/volumetrics/apply.glsl"
 
 layout(binding = 0) uniform sampler2D depth_texture;
-layout(binding = 1) uniform sampler2D farthest_view_depth;
-layout(binding = 2) uniform sampler3D froxel_radiance;  // see froxel_accumulate.comp
-#if LOCAL_MEDIA && CHROMATIC
-layout(binding = 3) uniform sampler3D froxel_optical_depth;
-#endif
 
 layout(location = 0) flat in vec3 ambient;
 layout(location = 0) out vec4 out_scattering;
@@ -19,113 +10,11 @@ layout(location = 0) out vec4 out_scattering;
 layout(location = 1) out vec4 out_transmittance;
 #endif
 
-// Light and optical depth of the local media up to the begin and the end of a slice.
-struct Ends {
-    vec3 radiance_begin;
-    vec3 radiance_end;
-    vec3 local_begin;
-    vec3 local_end;
-};
-
-vec3 local_depth_at(ivec3 froxel, vec4 texel) {
-#if LOCAL_MEDIA && CHROMATIC
-    count_work(WORK_TEXTURE_FETCHES, 1u);
-    return texelFetch(froxel_optical_depth, froxel, 0).rgb;
-#else
-    return vec3(texel.a);
-#endif
-}
-
-// `beyond`, 0..1: how sure it is that the column sees past the pixel's surface, at whose outline it lies. Its slice is
-// then lit behind the surface too, maybe by a lamp that the surface hides. So it is taken to send no more than the slice
-// before it, in proportion to their lengths (`growth`).
-void add_column(ivec3 froxel, float weight, float beyond, float growth, inout Ends ends) {
-    count_work(WORK_TEXTURE_FETCHES, 1u);
-    vec4 texel = texelFetch(froxel_radiance, froxel, 0);
-    vec3 radiance_end = texel.rgb;
-    ends.local_end += weight * local_depth_at(froxel, texel);
-    if (--froxel.z >= 0) {
-        count_work(WORK_TEXTURE_FETCHES, 1u);
-        texel = texelFetch(froxel_radiance, froxel, 0);
-        ends.radiance_begin += weight * texel.rgb;
-        ends.local_begin += weight * local_depth_at(froxel, texel);
-        if (beyond > 0.0) {
-            vec3 before = vec3(0.0);
-            if (froxel.z > 0) {
-                count_work(WORK_TEXTURE_FETCHES, 1u);
-                before = texelFetch(froxel_radiance, froxel - ivec3(0, 0, 1), 0).rgb;
-            }
-            vec3 limit = texel.rgb + growth * max(texel.rgb - before, 0.0);
-            radiance_end = mix(radiance_end, min(radiance_end, limit), beyond);
-        }
-    }
-    ends.radiance_end += weight * radiance_end;
-}
-
-// 1 for a column that reaches the view depth, falling to 0 for one that ends at half of it or before: behind that
-// froxel_accumulate.comp has filled nothing in.
-float depth_weight(float farthest, float view_depth) {
-    return farthest >= view_depth ? 1.0 : max(2.0 * farthest / view_depth - 1.0, 0.0);
-}
-
-// growth: length of the slice relative to the one before it.
-Ends interpolate(vec2 uv, int slice, float view_depth, float growth, ivec2 size) {
-    vec2 p = uv * vec2(size) - 0.5;
-    ivec2 base = ivec2(floor(p));
-    vec2 f = p - vec2(base);
-    Ends ends = Ends(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
-    float total = 0.0;
-    for (int i = 0; i < 4; ++i) {
-        ivec2 corner = ivec2(i & 1, i >> 1);
-        ivec2 column = clamp(base + corner, ivec2(0), size - 1);
-        vec2 side = mix(1.0 - f, f, vec2(corner));
-        float farthest = texelFetch(farthest_view_depth, column, 0).r;
-        count_work(WORK_TEXTURE_FETCHES, 1u);
-        float weight = side.x * side.y * depth_weight(farthest, view_depth);
-        if (weight <= 0.0) continue;
-        float beyond = clamp(min(farthest, froxel_far()) / view_depth - 1.0, 0.0, 1.0);
-        add_column(ivec3(column, slice), weight, beyond, growth, ends);
-        total += weight;
-    }
-    float scale = 1.0 / max(total, 1.0e-6);
-    return Ends(ends.radiance_begin * scale, ends.radiance_end * scale, ends.local_begin * scale,
-                ends.local_end * scale);
-}
-
 void main() {
-    vec2 uv = gl_FragCoord.xy * volumetrics.viewport.zw;
-    Ray ray = view_ray(uv);
     float depth = texelFetch(depth_texture, ivec2(gl_FragCoord.xy), 0).r;
     count_work(WORK_TEXTURE_FETCHES, 1u);
-    float surface = view_depth_from_buffer(depth, volumetrics.eye.w);
-    float view_depth = min(surface, froxel_far());
-    ivec3 size = textureSize(froxel_radiance, 0);
-    int slice = froxel_slice(view_depth, size.z);
-    float slice_begin = froxel_slice_begin(slice, size.z);
-    float slice_end = froxel_slice_begin(slice + 1, size.z);
-    float growth = (slice_end - slice_begin) / max(slice_begin - froxel_slice_begin(slice - 1, size.z), 1.0e-6);
-    Ends ends = interpolate(uv, slice, view_depth, growth, size.xy);
-
-    float begin = ray_distance_from_view_depth(slice_begin, ray.forward_cosine);
-    float end = ray_distance_from_view_depth(slice_end, ray.forward_cosine);
-    float at = ray_distance_from_view_depth(view_depth, ray.forward_cosine);
-    float length_share = clamp((view_depth - slice_begin) / (slice_end - slice_begin), 0.0, 1.0);
-    Extinction local = to_extinction(max(ends.local_end - ends.local_begin, 0.0));
-    Extinction share = gathered_share(global_optical_depth(ray, begin, at) + local * length_share,
-                                      global_optical_depth(ray, begin, end) + local, length_share);
-
-    March march;
-    march.radiance = mix(ends.radiance_begin, ends.radiance_end, vec3(share));
-    march.transmittance =
-        exp(-(global_optical_depth(ray, 0.0, at) + to_extinction(ends.local_begin) + local * length_share));
-    if (surface > froxel_far()) {
-        Extinction sun_front = Extinction(0.0);
-#if HAS_SUN
-        sun_front = to_extinction(sun_optical_depth(ray.origin.y + ray.direction.y * at, -sun_direction()));
-#endif
-        march_tail(ray, at, ray_distance_from_view_depth(surface, ray.forward_cosine), is_background(depth), ambient,
-                   sun_front, march);
-    }
+    March march = froxel_march(gl_FragCoord.xy * volumetrics.viewport.zw,
+                               view_depth_from_buffer(depth, volumetrics.eye.w), true, is_background(depth), ambient);
     out_scattering = round_to_half(vec4(march.radiance, average(march.transmittance)));
 #if CHROMATIC
     out_transmittance = round_to_half(vec4(march.transmittance, average(march.transmittance)));

@@ -1,9 +1,9 @@
 #include "engine/render/passes/gbuffer.h"
 
 #include <algorithm>
-#include <array>
 
 #include "engine/gl/state.h"
+#include "engine/render/passes/material_binding.h"
 
 namespace tyndall {
 namespace {
@@ -15,23 +15,9 @@ const ProgramDesc program{
     {}};
 const ProgramRegistry::Registration registration(program);
 
-/// An instance whose transform mirrors has its triangles wound the other way: its front faces would be culled.
 bool any_mirrored(const FrameContext& frame) {
-    return std::ranges::any_of(frame.gpu.instances(), [&](const Instance& instance) {
-        const auto node = static_cast<std::size_t>(instance.node);
-        return glm::determinant(glm::mat3(frame.scene.nodes[node].world)) < 0;
-    });
-}
-
-void bind_material(const gl::Program& shader, const GpuScene::GpuMaterial& material) {
-    const std::array<GLuint, 5> textures{material.base_color, material.metallic_roughness, material.normal,
-                                         material.occlusion, material.emissive};
-    glBindTextures(0, static_cast<GLsizei>(textures.size()), textures.data());
-    shader.set("base_color_factor", material.base_color_factor);
-    shader.set("emissive_alpha_cutoff", material.emissive_alpha_cutoff);
-    shader.set("metallic_roughness_normal_occlusion", material.metallic_roughness_normal_occlusion);
-    shader.set("dielectric_f0", material.dielectric_f0);
-    shader.use();
+    return std::ranges::any_of(frame.gpu.instances(),
+                               [&](const Instance& instance) { return is_mirrored(frame.scene, instance); });
 }
 
 }  // namespace

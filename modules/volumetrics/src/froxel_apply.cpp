@@ -2,6 +2,7 @@
 #include "engine/gl/vertex_array.h"
 #include "froxel_passes.h"
 #include "shaders/shared/bindings.h"
+#include "volumetrics/volumetrics.h"
 
 namespace tyndall::volumetrics {
 namespace {
@@ -13,19 +14,28 @@ const ProgramDesc program{.name = "volumetrics/froxel_apply",
                                    {"LOCAL_MEDIA", {0, 1}},
                                    {"HAS_SUN", {0, 1}},
                                    {"CHROMATIC", {0, 1}},
+                                   {"RAYLEIGH", {0, 1}},
                                    {"COUNT_WORK", {0, 1}}},
-                          .valid = {}};
+                          .valid = is_rayleigh_permutation};
 const ProgramRegistry::Registration registration(program);
 
 }  // namespace
 
-int height_media_axis(const FrameMedia& media) {
-    const int heights = static_cast<int>(media.data.counts.x);
-    return heights > 1 ? MAX_HEIGHT_MEDIA : heights;
+void Volumetrics::sample_fog(PassBuilder& builder, const Fog& fog) {
+    for (TextureRef texture : {fog.columns, fog.radiance, fog.optical_depth}) builder.sample(texture);
+}
+
+void bind_fog_textures(const PassContext& context, const Fog& fog) {
+    // Where there is no optical depth by channel the shader does not read it, but something must be bound.
+    const TextureRef optical_depth = fog.optical_depth ? fog.optical_depth : fog.radiance;
+    glBindTextureUnit(UNIT_FOG_COLUMNS, context.texture(fog.columns).id);
+    glBindTextureUnit(UNIT_FOG_RADIANCE, context.texture(fog.radiance).id);
+    glBindTextureUnit(UNIT_FOG_OPTICAL_DEPTH, context.texture(optical_depth).id);
+    for (const GLuint unit : {UNIT_FOG_COLUMNS, UNIT_FOG_RADIANCE, UNIT_FOG_OPTICAL_DEPTH}) glBindSampler(unit, 0);
 }
 
 Outputs add_froxel_apply(PassList& passes, const PassResources& resources, const Inputs& inputs,
-                         const FrameMedia& media, TextureRef columns, const AccumulatedFroxels& froxels) {
+                         const FrameMedia& media, const Fog& fog) {
     const gl::TextureDesc desc{.format = GL_RGBA16F, .size = {inputs.size, 1}};
     Outputs outputs;
     outputs.scattering = passes.create("volumetrics/scattering", desc);
@@ -34,6 +44,7 @@ Outputs add_froxel_apply(PassList& passes, const PassResources& resources, const
                                                                 {"LOCAL_MEDIA", !media.local.empty()},
                                                                 {"HAS_SUN", inputs.has_sun},
                                                                 {"CHROMATIC", media.chromatic},
+                                                                {"RAYLEIGH", rayleigh_axis(media, inputs.has_sun)},
                                                                 {"COUNT_WORK", inputs.count_work}});
     // Behind the end of the froxels there are sun and ambient light, but neither lamps nor shadows.
     const bool lit = inputs.has_sun || inputs.has_ambient;
@@ -41,9 +52,7 @@ Outputs add_froxel_apply(PassList& passes, const PassResources& resources, const
         "volumetrics/froxel_apply",
         [&](PassBuilder& builder) {
             builder.sample(inputs.depth);
-            builder.sample(columns);
-            builder.sample(froxels.radiance);
-            builder.sample(froxels.optical_depth);
+            Volumetrics::sample_fog(builder, fog);
             if (lit) {
                 for (TextureRef texture : inputs.light_textures) builder.sample(texture);
                 for (BufferRef buffer : inputs.light_buffers) builder.read(buffer);
@@ -51,16 +60,13 @@ Outputs add_froxel_apply(PassList& passes, const PassResources& resources, const
             outputs.scattering = builder.attach_color(outputs.scattering);
             if (outputs.transmittance) outputs.transmittance = builder.attach_color(outputs.transmittance);
         },
-        [columns, froxels, depth = inputs.depth, bind_lighting = lit ? inputs.bind_lighting : nullptr, &shader,
+        [fog, depth = inputs.depth, bind_lighting = lit ? inputs.bind_lighting : nullptr, &shader,
          &resources](const PassContext& context) {
-            const auto texture = [&](TextureRef ref) { return ref ? context.texture(ref) : gl::TextureView(); };
             gl::apply({});
             context.bind_framebuffer();
             if (bind_lighting) bind_lighting();
-            const BoundTextures bound{{texture(depth), resources.nearest},
-                                      {texture(columns), resources.nearest},
-                                      {texture(froxels.radiance), resources.nearest},
-                                      {texture(froxels.optical_depth), resources.nearest}};
+            bind_fog_textures(context, fog);
+            const BoundTextures bound{{context.texture(depth), resources.nearest}};
             resources.uniforms.bind(GL_UNIFORM_BUFFER, BINDING_VOLUMETRICS);
             shader.use();
             gl::draw_fullscreen();

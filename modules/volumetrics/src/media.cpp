@@ -39,8 +39,12 @@ float mean(glm::vec3 v) {
 
 void add_homogeneous(const GlobalMedium& medium, shared::VolumetricsData& data) {
     glm::vec4& s = data.homogeneous_sigma_s;
-    const float before = mean(s), added = mean(medium.sigma_s);
-    if (before + added > 0) s.w = (s.w * before + medium.anisotropy * added) / (before + added);
+    if (medium.rayleigh) {
+        data.homogeneous_rayleigh += glm::vec4(medium.sigma_s, 0);
+    } else {
+        const float before = std::max(mean(s - data.homogeneous_rayleigh), 0.0F), added = mean(medium.sigma_s);
+        if (before + added > 0) s.w = (s.w * before + medium.anisotropy * added) / (before + added);
+    }
     s += glm::vec4(medium.sigma_s, 0);
     data.homogeneous_sigma_t += glm::vec4(medium.sigma_s + medium.sigma_a, 0);
     data.homogeneous_emission += glm::vec4(medium.emission, 0);
@@ -49,7 +53,8 @@ void add_homogeneous(const GlobalMedium& medium, shared::VolumetricsData& data) 
 shared::HeightMedium pack_height(const GlobalMedium& medium) {
     return {.sigma_s_base = {medium.sigma_s, medium.base},
             .sigma_t_falloff = {medium.sigma_s + medium.sigma_a, medium.falloff},
-            .emission_g = {medium.emission, medium.anisotropy}};
+            .emission_g = {medium.emission, medium.rayleigh ? 0.0F : medium.anisotropy},
+            .sigma_s_rayleigh = {medium.rayleigh ? medium.sigma_s : glm::vec3(0), 0}};
 }
 
 shared::LocalMedium pack_local(const LocalMedium& medium) {
@@ -69,7 +74,8 @@ void add_global(const Inputs& inputs, FrameMedia& media) {
     for (const GlobalMedium& medium : inputs.global) {
         if (does_nothing(medium)) continue;
         media.has_global = true;
-        media.chromatic |= is_coloured(medium.sigma_s + medium.sigma_a);
+        media.rayleigh |= medium.rayleigh;
+        media.chromatic |= medium.rayleigh || is_coloured(medium.sigma_s + medium.sigma_a);
         if (!medium.height)
             add_homogeneous(medium, media.data);
         else if (heights++ < MAX_HEIGHT_MEDIA)
@@ -97,15 +103,33 @@ void add_local_in_view(const Inputs& inputs, const FroxelGrid& grid, FrameMedia&
 }
 
 /// All, also those that only attenuate light on its way to another: if any is in view, or a global medium is.
-void add_all_local(const Inputs& inputs, FroxelGrid grid, FrameMedia& media) {
+void add_all_local(const Inputs& inputs, const FroxelGrid& froxels, FrameMedia& media) {
+    FroxelGrid grid = froxels;
     grid.farthest = 1e9F;
     bool seen = media.has_global;
     for (const LocalMedium& medium : inputs.local) {
         if (does_nothing(medium)) continue;
         add_local(medium, media);
+        if (inputs.transparents)
+            media.local_froxels.push_back(is_empty(medium) ? IndexBox() : froxel_bounds(medium, inputs, froxels));
         seen |= !froxel_bounds(medium, inputs, grid).empty();
     }
-    if (!seen) media.local.clear();
+    if (seen) return;
+    media.local.clear();
+    media.local_froxels.clear();
+}
+
+/// Whatever the view: what dims the light of a place in view may be out of it, and volumes of all media outlast a turn of
+/// the camera.
+void add_attenuating(const Inputs& inputs, FrameMedia& media) {
+    for (const LocalMedium& medium : inputs.local) {
+        if (is_zero(medium.sigma_s + medium.sigma_a) || is_empty(medium)) continue;
+        AttenuatingMedium added{medium, pack_local(medium)};
+        added.packed.sigma_s_g.w = 0;
+        added.packed.emission_noise = {0, 0, 0, added.packed.emission_noise.w};
+        media.attenuating.push_back(added);
+        media.chromatic |= is_coloured(medium.sigma_s + medium.sigma_a);
+    }
 }
 
 void add_local(const Inputs& inputs, const Settings& settings, FrameMedia& media) {
@@ -116,11 +140,13 @@ void add_local(const Inputs& inputs, const Settings& settings, FrameMedia& media
         add_local_in_view(inputs, grid, media);
     media.data.counts.y = static_cast<unsigned>(media.local.size());
     media.data.options.w = static_cast<unsigned>(grid.distribution);
+    media.data.froxel_begins = grid.begins;
+    media.data.froxel_lengths = grid.lengths;
     // R1 sequence over the frames (Roberts 2018): multiples of the golden ratio.
     const double phase = inputs.frame_index * 0.6180339887498949;
     const float jitter = settings.froxel_jitter ? static_cast<float>(phase - std::floor(phase)) : -1.0F;
     media.data.medium_depths = {0, 1e9F, 0, 0};
-    if (!media.has_global && !media.local_froxels.empty())
+    if (!media.has_global && !media.local_froxels.empty() && settings.technique != Technique::reference)
         media.data.medium_depths = glm::vec4(view_depths(media.local_froxels, grid), 0, 0);
     media.data.froxel_depths = {grid.nearest, grid.farthest, jitter, 0};
 }
@@ -138,6 +164,11 @@ void set_stepping(const Settings& settings, shared::VolumetricsData& data) {
     data.march = {settings.max_distance, first, ratio, 0};
 }
 
+/// The techniques in closed form know only media that fill space.
+bool has_local_media(Technique technique) {
+    return technique != Technique::analytic_fog && technique != Technique::radial_shafts;
+}
+
 void set_view(const Inputs& inputs, shared::VolumetricsData& data) {
     data.inverse_projection = glm::inverse(inputs.projection);
     data.inverse_view = glm::inverse(inputs.view);
@@ -146,22 +177,42 @@ void set_view(const Inputs& inputs, shared::VolumetricsData& data) {
     data.viewport = {size, 1.0F / size};
 }
 
+unsigned phase_option(PhaseFunction phase) {
+    switch (phase) {
+        case PhaseFunction::henyey_greenstein:
+            return glsl::PHASE_HENYEY_GREENSTEIN;
+        case PhaseFunction::schlick:
+            return glsl::PHASE_SCHLICK;
+        case PhaseFunction::cornette_shanks:
+            return glsl::PHASE_CORNETTE_SHANKS;
+        case PhaseFunction::double_henyey_greenstein:
+            return glsl::PHASE_DOUBLE_HENYEY_GREENSTEIN;
+    }
+    return glsl::PHASE_ISOTROPIC;
+}
+
 }  // namespace
 
 FrameMedia gather_media(const Inputs& inputs, const Settings& settings) {
     FrameMedia media;
     if (settings.technique == Technique::off) return media;
     add_global(inputs, media);
-    add_local(inputs, settings, media);
-    if (media.empty()) return media;
+    if (has_local_media(settings.technique)) {
+        add_local(inputs, settings, media);
+        if (settings.light_transmittance && (inputs.has_sun || inputs.has_lamps)) add_attenuating(inputs, media);
+    }
+    if (media.empty() && media.attenuating.empty()) return media;
     set_view(inputs, media.data);
     set_stepping(settings, media.data);
+    media.data.march.w = media.chromatic && !media.local.empty() ? 1.0F : 0.0F;
     media.data.counts.z = static_cast<unsigned>(settings.steps);
     media.data.counts.w = settings.dither == Dither::none ? 1U : static_cast<unsigned>(settings.dither_size);
-    media.data.options.x =
-        settings.phase == PhaseFunction::schlick ? glsl::PHASE_SCHLICK : glsl::PHASE_HENYEY_GREENSTEIN;
+    media.data.options.x = phase_option(settings.phase);
+    media.data.phase_back = {settings.phase_back_anisotropy, settings.phase_back_weight, 0, 0};
     media.data.options.y = settings.light_transmittance ? 1U : 0U;
     media.data.options.z = inputs.has_ambient ? 1U : 0U;
+    media.data.fog = {static_cast<float>(settings.fog_mode), settings.radial_samples, settings.radial_decay,
+                      settings.radial_unseen};
     return media;
 }
 

@@ -14,16 +14,24 @@ struct IndexBox {
     [[nodiscard]] bool empty() const { return lower.x >= upper.x || lower.y >= upper.y || lower.z >= upper.z; }
 };
 
+/// A local medium that dims light on its way, in view or not.
+struct AttenuatingMedium {
+    LocalMedium medium;
+    shared::LocalMedium packed;  ///< without emission: equal bytes dim alike
+};
+
 /// What one frame's inputs come to: media that do nothing are left out, and so are local media out of view, but for
 /// the technique reference, where they may stand between a light and what is seen.
 struct FrameMedia {
     shared::VolumetricsData data{};
     std::vector<shared::LocalMedium> local;
-    std::vector<IndexBox> local_froxels;  ///< that each local medium may touch; none for the reference
+    std::vector<IndexBox> local_froxels;  ///< that each local medium may touch; none for the reference without transparents
     std::size_t live_tiles = 0;           ///< of the froxel volume: entries of live_tiles()
+    std::vector<AttenuatingMedium> attenuating;  ///< none where light_transmittance is off or no sun or lamp shines
     bool has_global = false;
     bool local_emission = false;
-    bool chromatic = false;  ///< some medium's extinction is coloured
+    bool rayleigh = false;   ///< some medium scatters as air does
+    bool chromatic = false;  ///< some medium's extinction is coloured, or is taken so: always where `rayleigh`
 
     [[nodiscard]] bool empty() const { return !has_global && local.empty(); }
 };

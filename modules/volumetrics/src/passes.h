@@ -3,6 +3,7 @@
 #include "engine/gl/buffer.h"
 #include "engine/gl/sampler.h"
 #include "engine/shader/shader_library.h"
+#include "light_volume.h"
 #include "media.h"
 #include "volumetrics/outputs.h"
 
@@ -13,20 +14,28 @@ struct FroxelMedia {
     TextureRef scattering, extinction, emission;  ///< emission only where some local medium emits
 };
 
+class FroxelHistory;
+
 /// What all passes of one frame share.
 struct PassResources {
     ShaderLibrary& shaders;
     gl::Sampler nearest = {}, linear = {};
-    gl::Buffer uniforms = {}, local_media = {}, media_tiles = {}, dither = {}, unfinished = {};
+    gl::Buffer uniforms = {}, local_media = {}, media_tiles = {}, dither = {}, unfinished = {}, sprites = {};
+    LightVolumes light_volumes = {};
 };
 
 [[nodiscard]] FroxelMedia add_inject_media(PassList& passes, const PassResources& resources, const Inputs& inputs,
                                            const Settings& settings, const FrameMedia& media);
 [[nodiscard]] Outputs add_march(PassList& passes, const PassResources& resources, const Inputs& inputs,
                                 const Settings& settings, const FrameMedia& media, const FroxelMedia& froxels);
-/// Light and transmittance of froxels, interpolated at each pixel's depth; no blur follows.
+/// Light and transmittance of froxels: the steps of the technique froxel before the last.
+[[nodiscard]] Fog add_froxel_fog(PassList& passes, const PassResources& resources, const Inputs& inputs,
+                                 const Settings& settings, const FrameMedia& media, const FroxelMedia& froxels,
+                                 FroxelHistory& history);
+/// The same, interpolated at each pixel's depth; no blur follows.
 [[nodiscard]] Outputs add_froxel(PassList& passes, const PassResources& resources, const Inputs& inputs,
-                                 const Settings& settings, const FrameMedia& media, const FroxelMedia& froxels);
+                                 const Settings& settings, const FrameMedia& media, const FroxelMedia& froxels,
+                                 FroxelHistory& history);
 /// The approaches that froxels are compared with. Each says in its file what it models and what it cannot.
 [[nodiscard]] Outputs add_billboards(PassList& passes, PassResources& resources, const Inputs& inputs,
                                      const Settings& settings, const FrameMedia& media);
@@ -38,6 +47,13 @@ struct PassResources {
                                        const Settings& settings, const FrameMedia& media);
 [[nodiscard]] Outputs add_radial_shafts(PassList& passes, PassResources& resources, const Inputs& inputs,
                                         const Settings& settings, const FrameMedia& media);
+/// Values of the axes HEIGHT_MEDIA and RAYLEIGH. `lit`: by a sun or lamps, for which alone a phase matters.
+[[nodiscard]] int height_media_axis(const FrameMedia& media);
+[[nodiscard]] int rayleigh_axis(const FrameMedia& media, bool lit);
+/// Of a program with the axis RAYLEIGH: whether the two functions above, FrameMedia::chromatic and the lights can
+/// give this combination.
+[[nodiscard]] bool is_rayleigh_permutation(const Permutation& permutation);
+
 /// Brute force in RGBA32F; `transmittance` is always given.
 [[nodiscard]] Outputs add_reference(PassList& passes, PassResources& resources, const Inputs& inputs,
                                     const Settings& settings, const FrameMedia& media);

@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <set>
 #include <string_view>
 #include <tuple>
 
 #include "dither.h"
 #include "engine/core/check.h"
+#include "froxel_history.h"
+#include "froxel_passes.h"
 #include "froxel_tiles.h"
 #include "passes.h"
 #include "shaders/shared/bindings.h"
@@ -21,15 +24,25 @@ const std::map<Technique, std::vector<const char*>>& passes_of() {
         {Technique::ray_march,
          {"volumetrics/inject_media", "volumetrics/march", "volumetrics/blur_horizontal",
           "volumetrics/blur_vertical"}},
-        {Technique::froxel, {"volumetrics/inject_media"}},
+        {Technique::froxel, {"volumetrics/inject_media", "volumetrics/froxel_history"}},
+        {Technique::analytic_fog, {"volumetrics/analytic_fog"}},
+        {Technique::radial_shafts,
+         {"volumetrics/analytic_fog", "volumetrics/radial_shafts", "volumetrics/blur_horizontal",
+          "volumetrics/blur_vertical"}},
+        {Technique::billboards, {"volumetrics/billboards", "volumetrics/billboards_resolve"}},
+        {Technique::shaft_geometry,
+         {"volumetrics/shaft_mesh", "volumetrics/shaft_faces", "volumetrics/shaft_resolve"}},
+        {Technique::particles,
+         {"volumetrics/particles_simulate", "volumetrics/particles", "volumetrics/particles_resolve"}},
     };
     return names;
 }
 
-void skip_others(PassList& passes, Technique technique) {
+void skip_others(PassList& passes, Technique technique, bool fog) {
     const std::string reason = "technique is " + technique_names()[static_cast<std::size_t>(technique)];
     const auto own = passes_of().find(technique);
     std::set<std::string_view> done;
+    if (fog) done = {"volumetrics/inject_media", "volumetrics/froxel_history"};  // transparents need them
     for (const auto& [other, names] : passes_of())
         for (const char* name : names) {
             const bool owned =
@@ -50,15 +63,20 @@ struct Volumetrics::Impl {
 
     PassResources resources;
     FrameMedia media;
+    FroxelHistory froxel_history;
+    std::optional<FroxelMedia> local_froxels;  ///< of this frame, once they are made
     std::tuple<Dither, int> dither_key{};
     bool count_work = false;
+    bool light_passes_added = false;  ///< since `prepare`
 
     void release() {
+        resources.light_volumes.release();
         resources.uniforms = {};
         resources.local_media = {};
         resources.media_tiles = {};
         resources.dither = {};
         resources.unfinished = {};
+        resources.sprites = {};
     }
 
     void upload_tiles(const Settings& settings) {
@@ -69,9 +87,18 @@ struct Volumetrics::Impl {
     }
 
     FroxelMedia add_local_media(PassList& passes, const Inputs& inputs, const Settings& settings) {
-        if (!media.local.empty()) return add_inject_media(passes, resources, inputs, settings, media);
-        passes.skip("volumetrics/inject_media", "no local medium in view");
-        return {};
+        local_froxels = FroxelMedia();
+        if (!media.local.empty())
+            local_froxels = add_inject_media(passes, resources, inputs, settings, media);
+        else
+            passes.skip("volumetrics/inject_media", "no local medium in view");
+        return *local_froxels;
+    }
+
+    /// What transparents are fogged by where the technique has no froxels of light.
+    Fog add_fog(PassList& passes, const Inputs& inputs, const Settings& settings) {
+        const FroxelMedia froxels = local_froxels ? *local_froxels : add_local_media(passes, inputs, settings);
+        return add_froxel_fog(passes, resources, inputs, settings, media, froxels, froxel_history);
     }
 
     Outputs add_ray_march(PassList& passes, const Inputs& inputs, const Settings& settings) {
@@ -91,7 +118,7 @@ struct Volumetrics::Impl {
                 return add_ray_march(passes, inputs, settings);
             case Technique::froxel: {
                 const FroxelMedia froxels = add_local_media(passes, inputs, settings);
-                return add_froxel(passes, resources, inputs, settings, media, froxels);
+                return add_froxel(passes, resources, inputs, settings, media, froxels, froxel_history);
             }
             case Technique::billboards:
                 return add_billboards(passes, resources, inputs, settings, media);
@@ -129,6 +156,8 @@ struct Volumetrics::Impl {
             resources.unfinished = {};
         else if (!resources.unfinished)
             resources.unfinished = gl::Buffer(16, "volumetrics unfinished lamps");
+        if (settings.technique != Technique::billboards && settings.technique != Technique::particles)
+            resources.sprites = {};
         const std::tuple key(settings.dither, settings.dither == Dither::none ? 1 : settings.dither_size);
         if (!resources.dither || key != dither_key) {
             const std::vector<float> tile = dither_tile(settings.dither, settings.dither_size);
@@ -143,22 +172,40 @@ Volumetrics::~Volumetrics() = default;
 
 void Volumetrics::prepare(const Inputs& inputs, const Settings& settings) {
     impl_->media = gather_media(inputs, settings);
-    if (impl_->media.empty())
+    impl_->light_passes_added = false;
+    impl_->resources.light_volumes.prepare(inputs, settings, impl_->media);
+    if (impl_->media.empty() && impl_->resources.light_volumes.axis() == 0)
         impl_->release();
     else
         impl_->upload(settings);
 }
 
+LightTransmittance Volumetrics::add_light_passes(PassList& passes, const Inputs& inputs, const Settings& settings) {
+    LightVolumes& volumes = impl_->resources.light_volumes;
+    impl_->light_passes_added = true;
+    if (!impl_->media.attenuating.empty()) volumes.add_passes(passes, impl_->resources.shaders, inputs);
+    const bool on = settings.light_transmittance && settings.technique != Technique::off;
+    return {.any = on && (impl_->media.has_global || volumes.axis() != 0),
+            .light_volumes = volumes.axis(),
+            .sun_volume = volumes.sun(),
+            .lamp_volumes = volumes.lamps()};
+}
+
 Outputs Volumetrics::add_passes(PassList& passes, const Inputs& inputs, const Settings& settings) {
     const FrameMedia& media = impl_->media;
     impl_->count_work = inputs.count_work;
+    if (!impl_->light_passes_added) add_light_passes(passes, inputs, settings);
+    if (!keeps_history(inputs, settings, media)) impl_->froxel_history.release();
     if (settings.technique == Technique::off || media.empty()) {
         skip_all(passes, settings.technique == Technique::off ? "technique is off" : "no medium in view");
         return {};
     }
     TYNDALL_CHECK(impl_->resources.uniforms);  // prepare came first
-    skip_others(passes, settings.technique);
-    return impl_->add_technique(passes, inputs, settings);
+    skip_others(passes, settings.technique, inputs.transparents);
+    impl_->local_froxels.reset();
+    Outputs outputs = impl_->add_technique(passes, inputs, settings);
+    if (inputs.transparents && !outputs.fog) outputs.fog = impl_->add_fog(passes, inputs, settings);
+    return outputs;
 }
 
 TextureRef Volumetrics::composite(PassList& passes, const Outputs& outputs, TextureRef color) {
@@ -166,14 +213,22 @@ TextureRef Volumetrics::composite(PassList& passes, const Outputs& outputs, Text
     return add_composite(passes, impl_->resources, outputs, color, impl_->count_work);
 }
 
+void Volumetrics::bind_fog(const PassContext& context, const Fog& fog) const {
+    bind_uniforms();
+    bind_fog_textures(context, fog);
+}
+
 void Volumetrics::bind_uniforms() const {
     TYNDALL_CHECK(impl_->resources.uniforms);
     impl_->resources.uniforms.bind(GL_UNIFORM_BUFFER, BINDING_VOLUMETRICS);
+    impl_->resources.light_volumes.bind();
 }
 
 std::size_t Volumetrics::persistent_bytes() const {
     const PassResources& r = impl_->resources;
-    return r.uniforms.size() + r.local_media.size() + r.media_tiles.size() + r.dither.size();
+    return r.uniforms.size() + r.local_media.size() + r.media_tiles.size() + r.dither.size() + r.sprites.size() +
+           impl_->froxel_history.bytes() +
+           r.light_volumes.bytes();
 }
 
 }  // namespace tyndall::volumetrics

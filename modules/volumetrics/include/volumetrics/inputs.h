@@ -15,6 +15,7 @@ struct GlobalMedium {
     glm::vec3 sigma_s{0}, sigma_a{0};
     float anisotropy = 0;   ///< g in (-1, 1), > 0 is forward
     glm::vec3 emission{0};  ///< radiance per metre
+    bool rayleigh = false;  ///< scatters as air does, whatever Settings::phase; anisotropy is then not read
     bool height = false;
     float base = 0, falloff = 1;  ///< m
 };
@@ -35,6 +36,13 @@ struct LocalMedium {
     float base = 0, falloff = 1;
 };
 
+/// A lamp in view, by its index for light_at() of shaders/interface/lights.glsl.
+struct Lamp {
+    std::uint32_t index = 0;
+    glm::vec3 position{0};  ///< m
+    float range = 0;        ///< m; 0: none
+};
+
 /// What the host gives each frame. All textures are borrowed.
 struct Inputs {
     glm::mat4 view{1};        ///< world to view, right-handed, looks along -Z
@@ -48,11 +56,15 @@ struct Inputs {
     std::vector<LocalMedium> local;
 
     bool has_sun = false;
-    bool has_lamps = false;  ///< local lights are in view
+    glm::vec3 sun_direction{0, -1, 0};  ///< unit, in which its light travels: as sun_direction() in the shaders
+    bool has_lamps = false;             ///< local lights are in view
+    std::vector<Lamp> lamps;            ///< those; local media do not attenuate the light of lamps left out
     bool has_ambient = false;
     std::vector<TextureRef> light_textures;  ///< what shaders/interface/{lights,shadows}.glsl sample
     std::vector<BufferRef> light_buffers;    ///< and read
     std::function<void()> bind_lighting;     ///< binds those; called inside each pass that lights the medium
+
+    bool transparents = false;  ///< Outputs::fog is wanted, whatever the technique
 
     std::uint32_t frame_index = 0;
     double time = 0;          ///< s

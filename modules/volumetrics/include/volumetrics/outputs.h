@@ -4,11 +4,30 @@
 
 namespace tyndall::volumetrics {
 
+/// Light and transmittance along all view rays, for what a host draws forward over the fogged picture with
+/// shaders/volumetrics/apply.glsl: a pass that includes it samples them (Volumetrics::sample_fog, bind_fog). Empty without
+/// a medium, and where neither the technique nor Inputs::transparents asked for it.
+struct Fog {
+    TextureRef columns;        ///< R32F: farthest view depth [m] in each column of froxels
+    TextureRef radiance;       ///< RGBA16F volume
+    TextureRef optical_depth;  ///< RGBA16F volume; empty where one value holds for all channels
+    explicit operator bool() const { return static_cast<bool>(radiance); }
+};
+
 /// Pre-multiplied result: color = scattering + color * transmittance. Empty refs: nothing to apply.
 struct Outputs {
     TextureRef scattering;     ///< RGBA16F: in-scattered and emitted radiance; a = mean transmittance
     TextureRef transmittance;  ///< RGBA16F, only when some medium's extinction is coloured; else scattering.a holds
                                ///< for all channels
+    Fog fog;
+};
+
+/// What media do to light on its way to surfaces: for a host's own lighting shaders, which include
+/// shaders/volumetrics/light_transmittance.glsl where `any` says so.
+struct LightTransmittance {
+    bool any = false;
+    int light_volumes = 0;                ///< value of the define LIGHT_VOLUMES: 1 sun, 2 lamps, 3 both are attenuated by local media
+    TextureRef sun_volume, lamp_volumes;  ///< sampled there, bound by Volumetrics::bind_uniforms
 };
 
 }  // namespace tyndall::volumetrics

@@ -1,0 +1,22 @@
+#include "engine/render/passes/material_binding.h"
+
+#include <array>
+
+namespace tyndall {
+
+void bind_material(const gl::Program& shader, const GpuScene::GpuMaterial& material) {
+    const std::array<GLuint, 5> textures{material.base_color, material.metallic_roughness, material.normal,
+                                         material.occlusion, material.emissive};
+    glBindTextures(0, static_cast<GLsizei>(textures.size()), textures.data());
+    shader.set("base_color_factor", material.base_color_factor);
+    shader.set("emissive_alpha_cutoff", material.emissive_alpha_cutoff);
+    shader.set("metallic_roughness_normal_occlusion", material.metallic_roughness_normal_occlusion);
+    shader.set("dielectric_f0", material.dielectric_f0);
+    shader.use();
+}
+
+bool is_mirrored(const Scene& scene, const Instance& instance) {
+    return glm::determinant(glm::mat3(scene.nodes[static_cast<std::size_t>(instance.node)].world)) < 0;
+}
+
+}  // namespace tyndall
