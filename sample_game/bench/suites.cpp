@@ -10,6 +10,7 @@
 
 #include "engine/core/error.h"
 #include "sample_game/bench/techniques.h"
+#include "volumetrics/settings.h"
 
 namespace tyndall::bench {
 namespace {
@@ -88,6 +89,25 @@ std::vector<Group> stress_groups(const Place& place, const PlaceFacts& facts, co
 }
 
 const std::string standard = "march, Bayer, blur";
+
+/// Each technique as it comes, the march with dither and blur.
+std::vector<Group> approaches_groups(const Place& place, const PlaceFacts& facts, const SuiteRequest& request) {
+    Group group{place.name, {}, facts};
+    for (const std::string& technique : volumetrics::technique_names()) {
+        const auto is_row = [&](const Family& f) {
+            return f.technique == technique && (technique != "ray_march" || f.name == standard);
+        };
+        const auto row = std::ranges::find_if(families(), is_row);
+        if (row == families().end() || (row->limit && request.against_gpu)) continue;
+        Configuration c;
+        c.family = row->name;
+        c.settings = {"technique=" + technique};
+        c.history_frames = row->history_frames;
+        c.weight = row->limit ? 1000 : 12;
+        group.points.push_back(point(place, request.size, c, "", 0));
+    }
+    return {group};
+}
 
 std::vector<Group> passes_groups(const Place& place, const PlaceFacts& facts, const SuiteRequest& request) {
     return {{place.name, {point(place, request.size, with_count(standard, {}, "steps", 8), "steps", 8)}, facts}};
@@ -197,6 +217,12 @@ const std::vector<Definition>& definitions() {
          },
          front_groups},
         {"stress", frame("Scenes built to break numerics", true, true, true), torture_places, stress_groups},
+        {"approaches", frame("Each technique as it comes", true, true, true),
+         [] {
+             return named({"slats_sun", "slats_spot", "lamps_open", "lamps_shadowed", "inside_towards", "outside",
+                           "torture_sky", "teapot", "cube", "ragged", "LocalLights", "Sun", "Balance"});
+         },
+         approaches_groups},
         {"scaling", frame("Cost against one variable at a time", true, false, false),
          [] {
              return named({"cube", "slats_sun", "lamps_open", "lamps_shadowed"});

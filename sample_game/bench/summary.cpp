@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <nlohmann/json.hpp>
 
 #include "sample_game/bench/reports.h"
@@ -208,6 +209,39 @@ std::string pass_summary(const std::vector<Row>& rows, const std::map<std::strin
     return md + "\n";
 }
 
+/// One value of all techniques in all places.
+std::string approach_table(const std::vector<Row>& rows, const std::string& what,
+                           const std::function<double(const Row&)>& value) {
+    const std::vector<std::string> places = place_names(rows);
+    std::vector<std::string> names;
+    for (const Row& row : rows)
+        if (std::ranges::count(names, row.point->configuration.family) == 0)
+            names.push_back(row.point->configuration.family);
+    std::string md = fmt::format("## {}\n\n| |", what);
+    for (const std::string& place : places) md += " " + place + " |";
+    md += "\n|---|";
+    for (std::size_t i = 0; i < places.size(); ++i) md += "---|";
+    for (const std::string& name : names) {
+        md += "\n| " + name + " |";
+        for (const std::string& place : places) {
+            const std::vector<Row> here = of_place(rows, place);
+            const auto row = std::ranges::find(
+                here, name, [](const Row& r) -> const std::string& { return r.point->configuration.family; });
+            md += row == here.end() ? " |" : " " + three(value(*row)) + " |";
+        }
+    }
+    return md + "\n\n";
+}
+
+std::string approach_summary(const std::vector<Row>& all) {
+    std::vector<Row> rows;
+    std::ranges::copy_if(all, std::back_inserter(rows), [](const Row& r) { return r.timed() && r.compared(); });
+    return approach_table(rows, "Error", [](const Row& r) { return r.measured->errors->scattering; }) +
+           approach_table(rows, "FLIP", [](const Row& r) { return r.measured->errors->flip; }) +
+           approach_table(rows, "Time of volumetrics (ms)", [](const Row& r) { return r.volumetrics.median; }) +
+           motion_table(rows);
+}
+
 }  // namespace
 
 std::string make_summary(const Suite& suite, const std::vector<Row>& rows, const json& conditions,
@@ -215,6 +249,7 @@ std::string make_summary(const Suite& suite, const std::vector<Row>& rows, const
     const std::string head = method(suite, rows, conditions);
     if (suite.name == "scaling" || suite.name == "convergence") return head + fit_summary(suite, rows, plots);
     if (suite.name == "headline") return head + headline_summary(rows, plots);
+    if (suite.name == "approaches") return head + approach_summary(rows);
     if (suite.name == "passes") return head + pass_summary(rows, plots);
     return head + error_time_summary(rows, plots);
 }
