@@ -35,12 +35,13 @@ struct InScattering::RaySum {
     std::vector<Panel<dvec3>> panels{};
     dvec3 sum{0};  ///< of the panels as first integrated
 
-    [[nodiscard]] double phase(double g, double cos_theta) const {
-        return in.settings_.schlick ? schlick(g, cos_theta) : henyey_greenstein(g, cos_theta);
+    /// 1/(m sr)
+    [[nodiscard]] dvec3 scattered(const MediumPoint& m, double cos_theta) const {
+        return (m.sigma_s - m.air) * in.settings_.phase(m.anisotropy, cos_theta) + m.air * rayleigh(cos_theta);
     }
     [[nodiscard]] double phase_peak() const {
-        const double g = ray.greatest_anisotropy();
-        return in.settings_.schlick ? schlick_peak(g) : henyey_greenstein_peak(g);
+        const double particles = in.settings_.phase.peak(ray.greatest_anisotropy());
+        return ray.has_air() ? std::max(particles, rayleigh_peak()) : particles;
     }
     [[nodiscard]] dvec3 glow(double t) const {
         const MediumPoint m = ray.at(t);
@@ -50,9 +51,8 @@ struct InScattering::RaySum {
         const MediumPoint m = ray.at(t);
         if (m.sigma_s == dvec3(0)) return dvec3(0);
         const Sun& sun = *in.lighting_.sun;
-        return glm::exp(-ray.depth(t)) * m.sigma_s * sun.illuminance *
-               in.towards_sun(origin + t * direction, sun.to_sun, in.averaged()) *
-               phase(m.anisotropy, glm::dot(sun.to_sun, direction));
+        return glm::exp(-ray.depth(t)) * sun.illuminance * scattered(m, glm::dot(sun.to_sun, direction)) *
+               in.towards_sun(origin + t * direction, sun.to_sun, in.averaged());
     }
     /// At u metres behind the point nearest to the lamp, times `weight`, m².
     [[nodiscard]] dvec3 lamplight(const LampPath& path, double u, double weight) const {
@@ -66,9 +66,8 @@ struct InScattering::RaySum {
         const double strength = lamp.attenuation(distance * distance) * lamp.cone(cos_axis) * weight;
         if (strength <= 0) return dvec3(0);
         const dvec3 to_lamp = distance > 0 ? -offset / distance : -direction;
-        return glm::exp(-ray.depth(t)) * m.sigma_s * lamp.intensity *
-               in.towards_lamp(origin + t * direction, to_lamp, distance, in.averaged()) *
-               (strength * phase(m.anisotropy, distance > 0 ? -u / distance : 0.0));
+        return glm::exp(-ray.depth(t)) * lamp.intensity * scattered(m, distance > 0 ? -u / distance : 0.0) *
+               in.towards_lamp(origin + t * direction, to_lamp, distance, in.averaged()) * strength;
     }
     [[nodiscard]] dvec3 evaluate(int source, double x) const {
         const Source& s = sources[static_cast<std::size_t>(source)];

@@ -23,13 +23,14 @@ dvec3 depth_of(const dvec3& sigma_t, double density_length) {
 
 }  // namespace
 
-void MediumSum::add(const dvec3& sigma_s, const dvec3& sigma_t, const dvec3& emission, double anisotropy,
-                    double density) {
-    sum_.sigma_s += density * sigma_s;
-    sum_.sigma_t += density * sigma_t;
-    sum_.emission += density * emission;
-    const double weight = density * (sigma_s.x + sigma_s.y + sigma_s.z);
-    sum_.anisotropy += weight * anisotropy;
+void MediumSum::add(const MediumPoint& m, double density) {
+    sum_.sigma_s += density * m.sigma_s;
+    sum_.sigma_t += density * m.sigma_t;
+    sum_.emission += density * m.emission;
+    sum_.air += density * m.air;
+    const dvec3 particles = m.sigma_s - m.air;
+    const double weight = density * (particles.x + particles.y + particles.z);
+    sum_.anisotropy += weight * m.anisotropy;
     weight_ += weight;
 }
 
@@ -44,7 +45,8 @@ Media::Media(const std::vector<Medium>& media) {
         if (does_nothing(m)) continue;
         if (m.shape == Medium::Shape::global || m.shape == Medium::Shape::height) {
             const dvec3 sigma_s(m.sigma_s);
-            unbounded_.push_back({{sigma_s, sigma_s + dvec3(m.sigma_a), dvec3(m.emission), m.anisotropy},
+            const dvec3 air = m.rayleigh ? sigma_s : dvec3(0);
+            unbounded_.push_back({{sigma_s, sigma_s + dvec3(m.sigma_a), dvec3(m.emission), m.anisotropy, air},
                                   m.height_profile,
                                   m.base,
                                   m.falloff});
@@ -60,10 +62,9 @@ bool Media::empty() const {
 
 MediumPoint Media::at(dvec3 point) const {
     MediumSum sum;
-    for (const Unbounded& m : unbounded_)
-        sum.add(m.at_density_1.sigma_s, m.at_density_1.sigma_t, m.at_density_1.emission, m.at_density_1.anisotropy,
-                m.density(point.y));
-    for (const MediumShape& m : shapes_) sum.add(m.sigma_s, m.sigma_t, m.emission, m.anisotropy, m.density(point));
+    for (const Unbounded& m : unbounded_) sum.add(m.at_density_1, m.density(point.y));
+    for (const MediumShape& m : shapes_)
+        sum.add({m.sigma_s, m.sigma_t, m.emission, m.anisotropy}, m.density(point));
     return sum.result();
 }
 
@@ -111,6 +112,10 @@ glm::bvec3 Media::channels() const {
     for (const Unbounded& m : unbounded_) add(m.at_density_1.sigma_s, m.at_density_1.emission);
     for (const MediumShape& m : shapes_) add(m.sigma_s, m.emission);
     return any;
+}
+
+bool Media::has_air() const {
+    return std::ranges::any_of(unbounded_, [](const Unbounded& m) { return m.at_density_1.air != dvec3(0); });
 }
 
 }  // namespace tyndall::reference

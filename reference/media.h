@@ -13,7 +13,8 @@ namespace tyndall::reference {
 struct MediumPoint {
     dvec3 sigma_s{0}, sigma_t{0};  ///< 1/m
     dvec3 emission{0};             ///< radiance per metre
-    double anisotropy = 0;         ///< averaged by scattering (mean of the channels)
+    double anisotropy = 0;         ///< averaged by scattering (mean of the channels), that of air left out
+    dvec3 air{0};                  ///< 1/m: the part of sigma_s that has Rayleigh's phase function
 };
 
 /// The media of a scene: overlapping ones add. Those that do nothing, or whose size is not positive, are left out.
@@ -51,6 +52,7 @@ class Media {
     [[nodiscard]] dvec3 unbounded_depth(double y, double rise, double length, bool global) const;
     /// Channels in which some medium scatters or emits.
     [[nodiscard]] glm::bvec3 channels() const;
+    [[nodiscard]] bool has_air() const;  ///< a medium has Rayleigh's phase function
 
   private:
     std::vector<Unbounded> unbounded_;
@@ -60,7 +62,7 @@ class Media {
 /// Adds up media at a point.
 class MediumSum {
   public:
-    void add(const dvec3& sigma_s, const dvec3& sigma_t, const dvec3& emission, double anisotropy, double density);
+    void add(const MediumPoint& at_density_1, double density);
     [[nodiscard]] MediumPoint result() const;
 
   private:

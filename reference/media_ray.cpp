@@ -56,13 +56,11 @@ double MediaRay::source_end(double end) const {
 MediumPoint MediaRay::at(double t) const {
     MediumSum sum;
     const double y = origin_.y + t * direction_.y;
-    for (const Media::Unbounded& m : media_->unbounded())
-        sum.add(m.at_density_1.sigma_s, m.at_density_1.sigma_t, m.at_density_1.emission, m.at_density_1.anisotropy,
-                m.density(y));
+    for (const Media::Unbounded& m : media_->unbounded()) sum.add(m.at_density_1, m.density(y));
     for (const Local& local : locals_) {
         if (t < local.path.inside.begin || t > local.path.inside.end) continue;
         const MediumShape& m = *local.path.shape;
-        sum.add(m.sigma_s, m.sigma_t, m.emission, m.anisotropy, local.path.density(t));
+        sum.add({m.sigma_s, m.sigma_t, m.emission, m.anisotropy}, local.path.density(t));
     }
     return sum.result();
 }

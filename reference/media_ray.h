@@ -21,6 +21,7 @@ class MediaRay {
     [[nodiscard]] double end() const { return end_; }
     /// Rising, from 0 to end(): kinks of the media, and where transmittance or a height profile change by much.
     [[nodiscard]] const std::vector<double>& knots() const { return knots_; }
+    [[nodiscard]] bool has_air() const { return media_->has_air(); }
     [[nodiscard]] bool noisy() const { return media_->noisy(); }
     /// Upper bound of the scattering coefficient along the ray.
     [[nodiscard]] dvec3 greatest_sigma_s() const;

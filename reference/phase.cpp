@@ -30,12 +30,60 @@ double schlick(double g, double cos_theta) {
     return per_sphere * (1 - k * k) / (root * root);
 }
 
+// (1 - g²) (1 + cos²) / ((2 + g²) (1 + g² - 2 g cos)^1.5), with the factor that makes its integral 1
+double cornette_shanks(double g, double cos_theta) {
+    g = std::clamp(g, -sharpest, sharpest);
+    const double g2 = g * g, squared = 1 + g2 - 2 * g * cos_theta;
+    return 1.5 * per_sphere * (1 - g2) / (2 + g2) * (1 + cos_theta * cos_theta) / std::pow(squared, 1.5);
+}
+
+double rayleigh(double cos_theta) {
+    return 0.75 * per_sphere * (1 + cos_theta * cos_theta);
+}
+
 double henyey_greenstein_peak(double g) {
     return henyey_greenstein(std::abs(g), 1);
 }
 
 double schlick_peak(double g) {
     return schlick(std::abs(g), 1);
+}
+
+double cornette_shanks_peak(double g) {
+    return cornette_shanks(std::abs(g), 1);
+}
+
+double rayleigh_peak() {
+    return rayleigh(1);
+}
+
+double ParticlePhase::operator()(double g, double cos_theta) const {
+    switch (kind) {
+        case Kind::henyey_greenstein:
+            break;
+        case Kind::schlick:
+            return schlick(g, cos_theta);
+        case Kind::cornette_shanks:
+            return cornette_shanks(g, cos_theta);
+        case Kind::double_henyey_greenstein:
+            return (1 - back_weight) * henyey_greenstein(g, cos_theta) +
+                   back_weight * henyey_greenstein(back_anisotropy, cos_theta);
+    }
+    return henyey_greenstein(g, cos_theta);
+}
+
+double ParticlePhase::peak(double g) const {
+    switch (kind) {
+        case Kind::henyey_greenstein:
+            break;
+        case Kind::schlick:
+            return schlick_peak(g);
+        case Kind::cornette_shanks:
+            return cornette_shanks_peak(g);
+        case Kind::double_henyey_greenstein:
+            return std::max(henyey_greenstein_peak(g), henyey_greenstein_peak(back_anisotropy));
+    }
+    return henyey_greenstein_peak(g);
 }
 
 }  // namespace tyndall::reference

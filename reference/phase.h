@@ -8,8 +8,27 @@ namespace tyndall::reference {
 /// Of Blasi, Le Saec and Schlick 1993, with the fit k = 1.55 g - 0.55 g³ held at |k| <= 0.999.
 [[nodiscard]] double schlick(double g, double cos_theta);
 
+/// Of Cornette and Shanks 1992: Rayleigh's where g is 0.
+[[nodiscard]] double cornette_shanks(double g, double cos_theta);
+/// Of molecules: 3 (1 + cos²) / (16 pi).
+[[nodiscard]] double rayleigh(double cos_theta);
+
 /// The greatest value over all directions.
 [[nodiscard]] double henyey_greenstein_peak(double g);
 [[nodiscard]] double schlick_peak(double g);
+[[nodiscard]] double cornette_shanks_peak(double g);
+[[nodiscard]] double rayleigh_peak();
+
+/// The phase function of all media that are not air.
+struct ParticlePhase {
+    /// In the order of the setting. double_henyey_greenstein: a share back_weight of the light goes into a lobe of
+    /// back_anisotropy (< 0).
+    enum class Kind { henyey_greenstein, schlick, cornette_shanks, double_henyey_greenstein };
+    Kind kind = Kind::henyey_greenstein;
+    double back_anisotropy = 0, back_weight = 0;
+
+    [[nodiscard]] double operator()(double g, double cos_theta) const;
+    [[nodiscard]] double peak(double g) const;  ///< no less than the greatest value over all directions
+};
 
 }  // namespace tyndall::reference

@@ -8,13 +8,14 @@
 #include "engine/scene/scene.h"
 #include "engine/scene/view.h"
 #include "reference/geometry.h"
+#include "reference/phase.h"
 
 namespace tyndall::reference {
 
 /// What of the engine's settings changes the ground truth, and how exact it is.
 struct Settings {
     bool light_transmittance = true;  ///< media attenuate light on its way to the point (and to surfaces)
-    bool schlick = false;             ///< Schlick's phase function instead of Henyey-Greenstein's
+    ParticlePhase phase{};            ///< of all media but air
     bool shadows = true;
     double ambient = 0.4;         ///< factor on the sky's light
     bool black_surfaces = false;  ///< surfaces block and hide, and send no light
@@ -28,6 +29,7 @@ struct Settings {
 ///
 ///     L = ∫ T(0,t) σ_s(t) Σ_i p(cos θ_i) V_i(t) T_i(t) E_i(t) dt + ∫ T(0,t) e(t) dt + T(0,d) L_surface
 ///
+/// with σ_s p the sum of what the particles and the air at t scatter.
 /// Rays go on to infinity. Thread-safe after construction; the scene must outlive it and not move.
 class Reference {
   public:

@@ -8,6 +8,7 @@ volumetrics::GlobalMedium global_medium(const Medium& m) {
             .sigma_a = m.sigma_a,
             .anisotropy = m.anisotropy,
             .emission = m.emission,
+            .rayleigh = m.rayleigh,
             .height = m.height_profile,
             .base = m.base,
             .falloff = m.falloff};
@@ -44,9 +45,10 @@ volumetrics::Inputs volumetrics_inputs(const FrameContext& frame) {
     for (const Medium& medium : frame.scene.media) {
         const bool global = medium.shape == Medium::Shape::global || medium.shape == Medium::Shape::height;
         if (global && frame.facts.has_global_medium) inputs.global.push_back(global_medium(medium));
-        if (!global && frame.facts.has_local_media) inputs.local.push_back(local_medium(medium));
+        if (!global) inputs.local.push_back(local_medium(medium));
     }
     inputs.has_sun = frame.facts.has_sun;
+    inputs.sun_direction = glm::vec3(frame.frame.sun_direction);
     inputs.has_lamps = frame.facts.local_lights_in_view > 0;
     inputs.has_ambient = frame.facts.has_ambient;
     inputs.frame_index = frame.frame_index;
@@ -55,8 +57,13 @@ volumetrics::Inputs volumetrics_inputs(const FrameContext& frame) {
     return inputs;
 }
 
-void add_lighting_inputs(volumetrics::Inputs& inputs, const LightSources& sources, TextureRef depth) {
+void add_lighting_inputs(volumetrics::Inputs& inputs, const LightSources& sources, const LightSet& lights,
+                         TextureRef depth) {
     inputs.depth = depth;
+    for (const std::size_t i : lights.indices_in_view()) {
+        const glm::vec4& sphere = lights.lights()[i].position_range;
+        inputs.lamps.push_back({static_cast<std::uint32_t>(i), glm::vec3(sphere), sphere.w});
+    }
     inputs.light_textures = sources.textures;
     inputs.light_buffers = sources.buffers;
     inputs.bind_lighting = sources.bind;

@@ -83,10 +83,10 @@ Medium::Shape parse_shape(const Field& field) {
 void require_known_keys(const Field& field, Medium::Shape shape) {
     switch (shape) {
         case Medium::Shape::global:
-            return field.require_object({"shape", "scattering", "absorption", "anisotropy", "emission"});
+            return field.require_object({"shape", "scattering", "absorption", "anisotropy", "phase", "emission"});
         case Medium::Shape::height:
             return field.require_object(
-                {"shape", "scattering", "absorption", "anisotropy", "emission", "base", "falloff"});
+                {"shape", "scattering", "absorption", "anisotropy", "phase", "emission", "base", "falloff"});
         case Medium::Shape::sphere:
             return field.require_object({"shape", "scattering", "absorption", "anisotropy", "emission", "center",
                                          "radius", "rotation", "softness", "noise", "height"});
@@ -99,6 +99,13 @@ void require_known_keys(const Field& field, Medium::Shape shape) {
         case Medium::Shape::grid:
             throw Error(field.where + ": grid media are not supported by this version");
     }
+}
+
+void parse_phase(const Field& field, Medium& medium) {
+    if (field.json == "mie") return;
+    if (field.json != "rayleigh") field.fail("one of mie, rayleigh");
+    if (medium.anisotropy != 0) throw Error(field.where + ": rayleigh has no anisotropy, 0 or none expected");
+    medium.rayleigh = true;
 }
 
 void parse_height_profile(const Field& field, Medium& medium) {
@@ -143,6 +150,9 @@ Medium parse_medium(const Field& field) {
     if (!field.json.is_object()) field.fail("an object");
     Medium medium;
     medium.shape = parse_shape(field.at("shape"));
+    const bool unbounded = medium.shape == Medium::Shape::global || medium.shape == Medium::Shape::height;
+    if (!unbounded && field.has("phase"))
+        throw Error(field.where + ".phase: only the shapes global and height have one");
     require_known_keys(field, medium.shape);
     medium.sigma_s = field.at("scattering").vector<3>(&Field::coefficient);
     if (field.has("absorption")) medium.sigma_a = field.at("absorption").vector<3>(&Field::coefficient);
@@ -150,6 +160,7 @@ Medium parse_medium(const Field& field) {
     if (field.has("anisotropy"))
         medium.anisotropy =
             field.at("anisotropy").number("a number between -1 and 1", [](float v) { return v > -1 && v < 1; });
+    if (field.has("phase")) parse_phase(field.at("phase"), medium);
     if (medium.shape == Medium::Shape::height) {
         parse_height_profile(field, medium);
     } else if (medium.shape != Medium::Shape::global) {

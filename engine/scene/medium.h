@@ -16,6 +16,7 @@ struct Medium {
     glm::vec3 sigma_s{0}, sigma_a{0};
     float anisotropy = 0;   ///< g in (-1, 1); g > 0 scatters forward
     glm::vec3 emission{0};  ///< emitted radiance per metre
+    bool rayleigh = false;  ///< global and height: Rayleigh's phase function, as air; then anisotropy is 0
     glm::vec3 center{0};
     glm::vec3 radii{1};  ///< sphere (equal) and ellipsoid; m
     glm::vec3 size{1};   ///< box: full edge lengths; m
@@ -31,8 +32,10 @@ struct Medium {
 };
 
 /// Parses {"media": [...]} or the bare list. `where` starts each message: path and index ("fog.json:
-/// media[2].radius: …"). Unknown keys, wrong types, non-finite numbers, coefficients outside 0 to 1e6 1/m, |g| >= 1,
-/// sizes <= 0 are errors. A `grid` is an error that says grid media are not supported by this version.
+/// media[2].radius: …"). Unknown keys, wrong types, non-finite numbers, coefficients outside 0 to 1e6 1/m, |g| >=
+/// 1, sizes <= 0 are errors; so is a "phase" other than "mie" (particles, the phase function of the settings) and
+/// "rayleigh" (air: no anisotropy, only in media that fill space). A `grid` is an error that says grid media are
+/// not supported by this version.
 [[nodiscard]] std::vector<Medium> parse_media(const nlohmann::json& json, const std::string& where);
 [[nodiscard]] std::vector<Medium> load_media(const std::filesystem::path& path);
 

@@ -88,14 +88,16 @@ void run(const Options& o) {
     animate(scene, o.view.time);
     const View view = o.view.view(scene, size);
     if (volumetrics.technique == volumetrics::Technique::off) scene.media.clear();
-    const reference::Reference integrator(scene,
-                                          {.light_transmittance = volumetrics.light_transmittance,
-                                           .schlick = volumetrics.phase == volumetrics::PhaseFunction::schlick,
-                                           .shadows = render.shadows,
-                                           .ambient = render.ambient,
-                                           .black_surfaces = o.black_surfaces,
-                                           .black_sky = o.black_sky,
-                                           .tolerance = o.tolerance});
+    const reference::Reference integrator(
+        scene, {.light_transmittance = volumetrics.light_transmittance,
+                .phase = {.kind = static_cast<reference::ParticlePhase::Kind>(volumetrics.phase),
+                          .back_anisotropy = volumetrics.phase_back_anisotropy,
+                          .back_weight = volumetrics.phase_back_weight},
+                .shadows = render.shadows,
+                .ambient = render.ambient,
+                .black_surfaces = o.black_surfaces,
+                .black_sky = o.black_sky,
+                .tolerance = o.tolerance});
     reference::Picture picture;
     {
         Progress progress("reference, row", size.y);
@@ -116,9 +118,8 @@ void add_reference_command(CLI::App& app) {
     CLI::App* command = app.add_subcommand(
         "reference",
         "The same picture from the ground truth: double precision on the CPU, exact visibility, no GL. Of the "
-        "settings, ambient, light_transmittance, phase, shadows and exposure_bias change it, and technique=off, "
-        "which "
-        "leaves the media out");
+        "settings, ambient, light_transmittance, phase and its back "
+        "lobe, shadows and exposure_bias change it, and technique=off, which leaves the media out");
     o->scene.add_to(*command, "", "640x360");
     command->add_option("-o,--output", o->output, "OUT.exr or OUT.png")->required();
     o->view.add_to(*command);

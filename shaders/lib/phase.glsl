@@ -10,8 +10,10 @@ const float PI = 3.14159265358979f;
 const int PHASE_ISOTROPIC = 0;
 const int PHASE_HENYEY_GREENSTEIN = 1;
 const int PHASE_SCHLICK = 2;
+const int PHASE_CORNETTE_SHANKS = 3;
+const int PHASE_DOUBLE_HENYEY_GREENSTEIN = 4;
 
-// |g| above this is taken as this: at 1 both functions become a delta.
+// |g| above this is taken as this: at 1 the lobes become a delta.
 const float PHASE_MAX_ANISOTROPY = 0.999f;
 
 float phase_isotropic() {
@@ -38,6 +40,29 @@ float phase_schlick(float g, float cos_theta) {
     return 0.25f / PI * (1.0f - k) * (1.0f + k) / (bracket * bracket);
 }
 
+// Molecules of air, and all that is far smaller than the wavelength: 3 (1 + cos_theta^2) / (16 pi) for unpolarised
+// light (Rayleigh 1871). Symmetric, so its mean cosine is 0.
+float phase_rayleigh(float cos_theta) {
+    return 0.1875f / PI * (1.0f + cos_theta * cos_theta);
+}
+
+// Cornette and Shanks 1992 (Applied Optics 31, 3152): Henyey-Greenstein with the Rayleigh factor,
+//     3 (1 - g^2) (1 + cos_theta^2) / (8 pi (2 + g^2) (1 + g^2 - 2 g cos_theta)^(3/2)).
+// g = 0 is Rayleigh, |g| -> 1 is Henyey-Greenstein. The mean cosine is not g but 3 g (4 + g^2) / (5 (2 + g^2)).
+float phase_cornette_shanks(float g, float cos_theta) {
+    float a = min(abs(g), PHASE_MAX_ANISOTROPY);
+    return 1.5f * (1.0f + cos_theta * cos_theta) / (2.0f + a * a) * phase_henyey_greenstein(g, cos_theta);
+}
+
+// Two Henyey-Greenstein lobes (Irvine 1965, Astrophysical Journal 142, 1563): the share back_weight, 0..1, of the light
+// goes into the lobe of back_g, which is below 0 for the backward peak of hazes and clouds. The mean cosine is
+// g (1 - back_weight) + back_g back_weight; weights 0 and 1 are the lobes alone.
+float phase_double_henyey_greenstein(float g, float back_g, float back_weight, float cos_theta) {
+    return (1.0f - back_weight) * phase_henyey_greenstein(g, cos_theta) +
+           back_weight * phase_henyey_greenstein(back_g, cos_theta);
+}
+
+// Of those with one lobe.
 float phase(int kind, float g, float cos_theta) {
     if (kind == PHASE_HENYEY_GREENSTEIN) {
         return phase_henyey_greenstein(g, cos_theta);
@@ -45,7 +70,18 @@ float phase(int kind, float g, float cos_theta) {
     if (kind == PHASE_SCHLICK) {
         return phase_schlick(g, cos_theta);
     }
+    if (kind == PHASE_CORNETTE_SHANKS) {
+        return phase_cornette_shanks(g, cos_theta);
+    }
     return phase_isotropic();
+}
+
+// Of all.
+float phase(int kind, float g, float back_g, float back_weight, float cos_theta) {
+    if (kind == PHASE_DOUBLE_HENYEY_GREENSTEIN) {
+        return phase_double_henyey_greenstein(g, back_g, back_weight, cos_theta);
+    }
+    return phase(kind, g, cos_theta);
 }
 
 #endif

@@ -4,6 +4,9 @@
 //
 // Behind the farthest surface of a column nothing is lit. The slice that holds this surface is lit up to it, so that
 // nothing behind a wall leaks in, and then scaled as if the rest of the slice were lit alike: see gathered_share.
+//
+// FROXEL_HISTORY: sun and lamps are stored apart, unshadowed, with the visible share of them, which froxel_history.comp averages over the
+// frames. Visibility is then sampled all over the froxel, not on the column's ray alone.
 #include "shaders/lib/dither.glsl"
 #include "shaders/lib/pack.glsl"
 #include "shaders/volumetrics/froxel_grid.glsl"
@@ -22,6 +25,16 @@ layout(binding = 3) uniform sampler3D froxel_emission;
 uniform int local_emission;  // 1: some local media emit; a uniform, for a permutation would save next to nothing
 #endif
 layout(rgba16f, binding = 0) writeonly uniform image3D froxel_radiance;
+#if FROXEL_HISTORY
+layout(rgba16f, binding = 1) writeonly uniform image3D froxel_visibility;  // rgb lamps, a sun; < 0: there are none
+#if HAS_SUN
+layout(rgba16f, binding = 2) writeonly uniform image3D froxel_sun;
+#endif
+#if LAMPS
+layout(rgba16f, binding = 3) writeonly uniform image3D froxel_lamps;
+#endif
+uniform vec3 visibility_jitter;  // x, y share of the column, z phase along the ray; z < 0: the middle of the froxel
+#endif
 
 // Half of the smallest half-float number: a transmittance of this is stored as 0, and nothing behind it shows.
 const float OPAQUE = 2.98e-8;
@@ -31,11 +44,38 @@ const float LEAST_SHARE = 1.0 / 64.0;
 // Where a froxel is sampled, as a share of the light of its slice. Jitter is a low-discrepancy sequence over the frames
 // (its additive part is froxel_depths.z), and other slices and columns are at other places of it.
 float sample_offset(ivec3 froxel) {
+#if FROXEL_HISTORY
+    float phase = visibility_jitter.z;
+#else
     float phase = volumetrics.froxel_depths.z;
+#endif
     if (phase < 0.0) return 0.5;
     float column = (float(bayer_rank(uvec2(froxel.xy), 4u)) + 0.5) / 16.0;
     return fract(phase + column + float(froxel.z) * 0.61803399);
 }
+
+#if FROXEL_HISTORY
+// See visibility_point. Points of a plane of one view depth are linear in their place on the screen.
+vec3 jittered_direction(Ray ray, ivec3 froxel, vec3 column_width, vec3 column_height) {
+    if (visibility_jitter.z < 0.0) return ray.direction;
+    // Rank-1 lattices: neighbours are at other places of the sequence.
+    vec2 place = fract(visibility_jitter.xy + vec2(dot(vec3(froxel), vec3(0.7548776662, 0.5698402910, 0.3819660113)),
+                                                   dot(vec3(froxel), vec3(0.5698402910, 0.7548776662, 0.6180339887))));
+    return ray.direction + (place.x - 0.5) * column_width + (place.y - 0.5) * column_height;
+}
+
+vec3 beside(Ray ray, vec2 uv) {
+    Ray other = view_ray(uv);
+    return other.direction * (ray.forward_cosine / other.forward_cosine) - ray.direction;
+}
+
+// Visible share of a light; below 0 where there is none to be seen.
+vec3 visible_share(vec3 visible, vec3 whole) {
+    const float MOST = 1.0e30;
+    vec3 share = clamp(min(visible, MOST) / clamp(whole, 1.0e-30, MOST), 0.0, 1.0);
+    return mix(share, vec3(-1.0), lessThan(whole, vec3(1.0e-30)));
+}
+#endif
 
 // Adds the local media of a froxel to the segment and its medium.
 void add_local_media(ivec3 froxel, inout Segment segment, inout Medium m) {
@@ -44,9 +84,7 @@ void add_local_media(ivec3 froxel, inout Segment segment, inout Medium m) {
     vec4 scattering = texelFetch(froxel_scattering, froxel, 0);
     vec3 sigma_t = texelFetch(froxel_extinction, froxel, 0).rgb;
     if (local_emission != 0) m.emission += texelFetch(froxel_emission, froxel, 0).rgb;
-    float weighted = m.anisotropy * mean_channel(m.sigma_s) + scattering.a;
-    m.sigma_s += scattering.rgb;
-    m.anisotropy = weighted / max(mean_channel(m.sigma_s), 1.0e-30);
+    add_particles(scattering.rgb, scattering.a, m);
     m.optical_depth += sigma_t * (segment.end - segment.begin);
     segment.sigma_s += scattering.rgb;
     segment.sigma_t += sigma_t;
@@ -54,8 +92,13 @@ void add_local_media(ivec3 froxel, inout Segment segment, inout Medium m) {
     segment.anisotropy = m.anisotropy;
 }
 
+struct SliceLight {
+    SegmentLight light;
+    Extinction share;  // of the slice's light, that has been gathered
+};
+
 // `cut`: where the light of the slice ends, in it or behind it.
-vec3 slice_light(Ray ray, ivec3 froxel, float begin, float end, float cut, vec3 ambient, inout Extinction sun_front) {
+SliceLight slice_light(Ray ray, ivec3 froxel, float begin, float end, float cut, vec3 ambient, inout Extinction sun_front) {
     float lit_end = min(end, max(cut, mix(begin, end, LEAST_SHARE)));
     Segment segment = Segment(begin, lit_end, sample_offset(froxel), 0.0, volumetrics.homogeneous_sigma_s.rgb,
                               volumetrics.homogeneous_sigma_t.rgb);
@@ -63,13 +106,35 @@ vec3 slice_light(Ray ray, ivec3 froxel, float begin, float end, float cut, vec3 
     count_work(WORK_MEDIUM_SAMPLES, 1u);
     add_local_media(froxel, segment, m);
     Optics optics = medium_optics(m, lit_end - begin);
-    vec3 light = segment_light(ray, segment, m, optics, ambient, sun_front);
+    SliceLight slice;
+    slice.light = segment_light_parts(ray, segment, m, optics, ambient, sun_front);
+    slice.share = Extinction(1.0);
     if (lit_end < end) {
         vec3 local_sigma_t = segment.sigma_t - volumetrics.homogeneous_sigma_t.rgb;
         Extinction whole = global_optical_depth(ray, begin, end) + to_extinction(local_sigma_t * (end - begin));
-        light /= max(gathered_share(optics.depth, whole, (lit_end - begin) / (end - begin)), 1.0e-6);
+        slice.share = max(gathered_share(optics.depth, whole, (lit_end - begin) / (end - begin)), 1.0e-6);
     }
-    return light;
+    return slice;
+}
+
+void store_slice(ivec3 froxel, SliceLight slice, Extinction transmittance) {
+#if FROXEL_HISTORY
+    SegmentLight light = slice.light;
+    vec3 scale = vec3(transmittance / slice.share);
+    vec4 visibility = vec4(-1.0);
+#if HAS_SUN
+    visibility.a = light.sun_visibility;
+    imageStore(froxel_sun, froxel, round_to_half(vec4(scale * light.sun, 0.0)));
+#endif
+#if LAMPS
+    visibility.rgb = visible_share(light.lamps, light.unshadowed_lamps);
+    imageStore(froxel_lamps, froxel, round_to_half(vec4(scale * light.unshadowed_lamps, 0.0)));
+#endif
+    imageStore(froxel_visibility, froxel, round_to_half(visibility));
+    imageStore(froxel_radiance, froxel, round_to_half(vec4(scale * light.diffuse, 0.0)));
+#else
+    imageStore(froxel_radiance, froxel, round_to_half(vec4(transmittance * (sum_of(slice.light) / slice.share), 0.0)));
+#endif
 }
 
 void main() {
@@ -93,13 +158,20 @@ void main() {
 #if HAS_SUN
     sun_front = to_extinction(sun_optical_depth(ray.origin.y + ray.direction.y * begin, -sun_direction()));
 #endif
+#if FROXEL_HISTORY
+    vec3 column_width = beside(ray, ray.uv + vec2(1.0 / float(size.x), 0.0));
+    vec3 column_height = beside(ray, ray.uv + vec2(0.0, 1.0 / float(size.y)));
+#endif
     for (; froxel.z <= last; ++froxel.z) {
         float end = ray_distance_from_view_depth(froxel_slice_begin(froxel.z + 1, size.z), ray.forward_cosine);
         Extinction transmittance = exp(-depth);
-        vec3 light = vec3(0.0);
+        SliceLight slice = SliceLight(SegmentLight(vec3(0.0), vec3(0.0), -1.0, vec3(0.0), vec3(0.0)), Extinction(1.0));
+#if FROXEL_HISTORY
+        visibility_direction = jittered_direction(ray, froxel, column_width, column_height);
+#endif
         if (largest(transmittance) > OPAQUE)
-            light = transmittance * slice_light(ray, froxel, begin, end, cut, ambient, sun_front);
-        imageStore(froxel_radiance, froxel, round_to_half(vec4(light, 0.0)));
+            slice = slice_light(ray, froxel, begin, end, cut, ambient, sun_front);
+        store_slice(froxel, slice, transmittance);
         depth += global_optical_depth(ray, begin, end);
         begin = end;
     }

@@ -6,11 +6,25 @@
 #include "shaders/interface/lights.glsl"
 #include "shaders/interface/shadows.glsl"
 #include "shaders/lib/lamp_segment.glsl"
-#include "shaders/lib/phase.glsl"
 #include "shaders/lib/work.glsl"
 #include "shaders/volumetrics/extinction.glsl"
 #include "shaders/volumetrics/light_transmittance.glsl"
 #include "shaders/volumetrics/ray.glsl"
+#include "shaders/volumetrics/scattering.glsl"
+
+// 1: visibility is kept from frame to frame (froxel_history.comp), so that light is wanted with and without it, and it
+// alone is sampled beside the ray.
+#ifndef FROXEL_HISTORY
+#define FROXEL_HISTORY 0
+#endif
+
+// Where visibility is sampled for a point of the ray.
+#if FROXEL_HISTORY
+vec3 visibility_direction = vec3(0.0);  // of the length that makes a point's view depth that of the point of the ray
+vec3 visibility_point(Ray ray, float t) { return ray.origin + visibility_direction * t; }
+#else
+vec3 visibility_point(Ray ray, float t) { return ray.origin + ray.direction * t; }
+#endif
 
 float lamp_inverse_range(GpuLight light) {
     return light.position_range.w > 0.0 ? 1.0 / light.position_range.w : 0.0;
@@ -35,8 +49,10 @@ struct Segment {
 };
 
 #if LAMPS == 1
-// Phase times incident illuminance of all lamps at a point [W sr^-1 m^-2 per unit of sigma_s].
-vec3 lamps_at(Ray ray, float t, float anisotropy) {
+// What a medium at a point scatters of the light of all lamps, per metre, if their visibility is that at the distance
+// t_visibility; `unshadowed`: if all are visible.
+vec3 lamps_at(Ray ray, float t, float t_visibility, Medium m, out vec3 unshadowed) {
+    unshadowed = vec3(0.0);
     vec3 point = ray.origin + ray.direction * t;
     ClusterRange range = lights_near(ray.uv, t * ray.forward_cosine);
     vec3 sum = vec3(0.0);
@@ -52,10 +68,14 @@ vec3 lamps_at(Ray ray, float t, float anisotropy) {
         to_lamp /= max(distance, 1.0e-6);
         if (is_spot(light)) attenuation *= spot_cone(-dot(to_lamp, light.direction_type.xyz), light.cone_shadow.xy);
         if (attenuation <= 0.0) continue;
-        float visible = lamp_visibility(index, light, point);
-        if (visible <= 0.0) continue;
-        sum += light.intensity_radius.rgb * exp(-to_extinction(lamp_optical_depth(point.y, to_lamp, distance))) *
-               (visible * attenuation * phase(int(volumetrics.options.x), anisotropy, dot(to_lamp, ray.direction)));
+        float visible = lamp_visibility(index, light, visibility_point(ray, t_visibility));
+        if (FROXEL_HISTORY == 0 && visible <= 0.0) continue;
+        vec3 scattered = light.intensity_radius.rgb *
+                         exp(-to_extinction(lamp_optical_depth(point.y, to_lamp, distance) +
+                                                                  local_lamp_optical_depth(index, -to_lamp, distance))) *
+                         volume_scattering(m, dot(to_lamp, ray.direction));
+        sum += scattered * (visible * attenuation);
+        unshadowed += scattered * attenuation;
     }
     return sum;
 }
@@ -156,25 +176,29 @@ bool next_lamp(Ray ray, Segment segment, inout LampWalk walk, out FoundLamp foun
     return false;
 }
 
-// What reaches the segment's front of the light a lamp sends to a point of it, apart from inverse square and phase.
-vec3 lamp_transport(Ray ray, Segment segment, GpuLight light, float t) {
+// What reaches the segment's front of the light a lamp sends to a point of it, apart from inverse square.
+vec3 lamp_transport(Ray ray, Segment segment, uint index, GpuLight light, float t, float cos_theta) {
     vec3 point = ray.origin + ray.direction * t;
     vec3 from_lamp = point - light.position_range.xyz;
     float distance = length(from_lamp);
     from_lamp /= max(distance, 1.0e-6);
     float advance = t - segment.begin;
-    vec3 depth = segment.sigma_t * advance + lamp_optical_depth(point.y, -from_lamp, distance);
-    vec3 sigma_s = segment.sigma_s;
+    vec3 depth = segment.sigma_t * advance + lamp_optical_depth(point.y, -from_lamp, distance) +
+                 local_lamp_optical_depth(index, from_lamp, distance);
+    Medium m;
+    m.sigma_s = segment.sigma_s;
+    m.anisotropy = segment.anisotropy;
+    m.sigma_s_rayleigh = global_sigma_s_rayleigh(point.y);
 #if HEIGHT_MEDIA
-    sigma_s += height_sigma_s(point.y);
+    m.sigma_s += height_sigma_s(point.y);
     depth += height_optical_depth(ray.origin.y + ray.direction.y * segment.begin, ray.direction.y, advance);
 #endif
-    vec3 transport = sigma_s * exp(-to_extinction(depth));
+    vec3 transport = volume_scattering(m, cos_theta) * exp(-to_extinction(depth));
     if (is_spot(light)) transport *= spot_cone(dot(from_lamp, light.direction_type.xyz), light.cone_shadow.xy);
     return transport;
 }
 
-vec3 lamp_over_segment(Ray ray, Segment segment, FoundLamp found) {
+vec3 lamp_over_segment(Ray ray, Segment segment, FoundLamp found, inout vec3 unshadowed) {
     count_work(WORK_LIGHT_EVALUATIONS, 1u);
     GpuLight light = light_at(found.index);
     LampRay lamp = found.lamp;
@@ -184,24 +208,33 @@ vec3 lamp_over_segment(Ray ray, Segment segment, FoundLamp found) {
     vec4 cos_theta = lamp_segment_cos_theta(rule, lamp);
     vec3 sum = vec3(0.0);
     for (int i = 0; i < 4; ++i)
-        sum += lamp_transport(ray, segment, light, rule.t[i]) *
-               (rule.weight[i] * phase(int(volumetrics.options.x), segment.anisotropy, cos_theta[i]));
+        sum += lamp_transport(ray, segment, found.index, light, rule.t[i], cos_theta[i]) * rule.weight[i];
+
+    if (is_spot(light)) {
+        vec3 axis = light.direction_type.xyz;
+        vec3 from_lamp = ray.origin + ray.direction * lamp.t_closest - light.position_range.xyz;
+        sum *= lamp_segment_cone_correction(rule, lamp, reach.begin, reach.end, radius,
+                                            dot(from_lamp, axis) / max(lamp.h, 1.0e-6), dot(ray.direction, axis),
+                                            light.cone_shadow.xy);
+    }
 
     // Equi-angular (Kulla and Fajardo 2012): over all offsets the point is distributed as the inverse square.
     float a = reach.begin - lamp.t_closest;
     float span = reach.end - reach.begin;
     LampIntegral integral = lamp_integral(a, a + span, span, lamp.h, radius);
     float advance = clamp(lamp_advance(integral, segment.offset * integral.total), 0.0, span);
-    float visible = lamp_visibility(found.index, light, ray.origin + ray.direction * (reach.begin + advance));
+    float visible = lamp_visibility(found.index, light, visibility_point(ray, reach.begin + advance));
+    unshadowed += light.intensity_radius.rgb * sum;
     return visible * light.intensity_radius.rgb * sum;
 }
 
-// Radiance that all lamps scatter to the segment's front.
-vec3 lamps_over_segment(Ray ray, Segment segment) {
+// Radiance that all lamps scatter to the segment's front; `unshadowed`: what it would be without shadows.
+vec3 lamps_over_segment(Ray ray, Segment segment, out vec3 unshadowed) {
     vec3 sum = vec3(0.0);
+    unshadowed = vec3(0.0);
     LampWalk walk = lamp_walk(ray, segment);
     FoundLamp found;
-    while (next_lamp(ray, segment, walk, found)) sum += lamp_over_segment(ray, segment, found);
+    while (next_lamp(ray, segment, walk, found)) sum += lamp_over_segment(ray, segment, found, unshadowed);
     return sum;
 }
 #endif

@@ -3,7 +3,7 @@
 //     L += T(0,a) int_a^b T(a,t) (sigma_s sum_i p V_i T_i E_i + e) dt,    T(0,b) = T(0,a) exp(-optical depth of [a,b])
 // Global media, transmittances and the inverse square of lamps are integrated in closed form; only local media and
 // visibility are sampled, once a segment, at an offset that differs from pixel to pixel.
-#include "shaders/lib/froxel.glsl"
+#include "shaders/volumetrics/froxel_depths.glsl"
 #include "shaders/volumetrics/segment_light.glsl"
 #include "shaders/lib/pack.glsl"
 
@@ -36,8 +36,7 @@ float dither_offset() {
 vec3 add_local_media(Ray ray, float t, float path_length, inout Medium m, inout vec3 sigma_s) {
     vec3 sigma_t = vec3(0.0);
 #if LOCAL_MEDIA
-    float w = froxel_w_from_view_depth(int(volumetrics.options.w), t * ray.forward_cosine, volumetrics.froxel_depths.x,
-                                       volumetrics.froxel_depths.y);
+    float w = froxel_w(t * ray.forward_cosine);
     if (w > 1.0) return sigma_t;
     vec3 uvw = vec3(ray.uv, w);
     count_work(WORK_TEXTURE_FETCHES, 1u + uint(LOCAL_MEDIA));
@@ -46,9 +45,7 @@ vec3 add_local_media(Ray ray, float t, float path_length, inout Medium m, inout 
 #if LOCAL_MEDIA == 2
     m.emission += textureLod(froxel_emission, uvw, 0.0).rgb;
 #endif
-    float weighted = m.anisotropy * mean_channel(m.sigma_s) + scattering.a;
-    m.sigma_s += scattering.rgb;
-    m.anisotropy = weighted / max(mean_channel(m.sigma_s), 1.0e-30);
+    add_particles(scattering.rgb, scattering.a, m);
     m.optical_depth += sigma_t * path_length;
     sigma_s += scattering.rgb;
 #endif

@@ -107,7 +107,6 @@ MediaMask media_near(vec3 a, vec3 direction, float path_length, float distance) 
 // Adds the local media between a and b: each by its density in the middle of what lies in its shape.
 void add_local_media(Ray ray, float a, float b, MediaMask mask, inout Medium m) {
 #if LOCAL_MEDIA
-    float weighted = m.anisotropy * mean_channel(m.sigma_s);
     for (uint word = 0u; word < mask_word_count(); ++word) {
         for (uint bits = mask_word(mask, word); bits != 0u; bits &= bits - 1u) {
             LocalMedium medium = local_media[32u * word + uint(findLSB(bits))];
@@ -117,13 +116,11 @@ void add_local_media(Ray ray, float a, float b, MediaMask mask, inout Medium m) 
             if (!is_homogeneous(medium))
                 density_length *= local_density(medium, ray.origin + ray.direction * (0.5 * (inside.x + inside.y)));
             vec3 sigma_s = medium.sigma_s_g.rgb * (density_length / (b - a));
-            m.sigma_s += sigma_s;
+            add_particles(sigma_s, medium.sigma_s_g.w * mean_channel(sigma_s), m);
             m.emission += medium.emission_noise.rgb * (density_length / (b - a));
             m.optical_depth += (medium.sigma_s_g.rgb + medium.sigma_a_shape.rgb) * density_length;
-            weighted += medium.sigma_s_g.w * mean_channel(sigma_s);
         }
     }
-    m.anisotropy = weighted / max(mean_channel(m.sigma_s), 1.0e-30);
 #endif
 }
 

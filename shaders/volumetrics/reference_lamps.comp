@@ -26,7 +26,7 @@ void fill_local_depth(Ray ray, Span span, MediaMask mask) {
     local_depth[0] = vec3(0.0);
 #if LOCAL_MEDIA
     for (int i = 0; i < step_count; ++i) {
-        Medium m = Medium(vec3(0.0), 0.0, vec3(0.0), vec3(0.0));
+        Medium m = Medium(vec3(0.0), 0.0, vec3(0.0), vec3(0.0), vec3(0.0));
         add_local_media(ray, step_begin(span, first_step + i), step_begin(span, first_step + i + 1), mask, m);
         local_depth[i + 1] = local_depth[i] + m.optical_depth;
     }
@@ -46,16 +46,13 @@ vec3 local_depth_to(Span span, float t) {
 Medium medium_at(vec3 point, MediaMask mask) {
     Medium m = global_medium(point.y, 0.0, 0.0);
 #if LOCAL_MEDIA
-    float weighted = m.anisotropy * mean_channel(m.sigma_s);
     for (uint word = 0u; word < mask_word_count(); ++word) {
         for (uint bits = mask_word(mask, word); bits != 0u; bits &= bits - 1u) {
             LocalMedium medium = local_media[32u * word + uint(findLSB(bits))];
             vec3 sigma_s = medium.sigma_s_g.rgb * local_density(medium, point);
-            m.sigma_s += sigma_s;
-            weighted += medium.sigma_s_g.w * mean_channel(sigma_s);
+            add_particles(sigma_s, medium.sigma_s_g.w * mean_channel(sigma_s), m);
         }
     }
-    m.anisotropy = weighted / max(mean_channel(m.sigma_s), 1.0e-30);
 #endif
     return m;
 }
@@ -89,8 +86,7 @@ vec3 scattered(Ray ray, Span span, float begin, float t, GpuLight light, uint in
     work += (1 + MEDIA_NOISE_OCTAVES) * int(volumetrics.counts.y);
 #endif
     work += 4 * int(volumetrics.counts.x);
-    float p = phase(int(volumetrics.options.x), m.anisotropy, dot(to_lamp, ray.direction));
-    return m.sigma_s * exp(-depth) * (strength * p);
+    return volume_scattering(m, dot(to_lamp, ray.direction)) * exp(-depth) * strength;
 }
 
 vec3 lamp_over_steps(Ray ray, Span span, float begin, FoundLamp found, MediaMask on_ray, inout int work) {

@@ -14,8 +14,7 @@ vec3 sun_source(Ray ray, float t, Medium m, MediaMask towards_sun) {
     vec3 to_sun = -sun_direction();
     int work = 0;
     vec3 depth = sun_optical_depth(point.y, to_sun) + local_optical_depth(point, to_sun, FAR, towards_sun, work);
-    float p = phase(int(volumetrics.options.x), m.anisotropy, dot(to_sun, ray.direction));
-    return m.sigma_s * sun_illuminance() * exp(-depth) * (visible * p);
+    return volume_scattering(m, dot(to_sun, ray.direction)) * sun_illuminance() * exp(-depth) * visible;
 #else
     return vec3(0.0);
 #endif

@@ -3,11 +3,11 @@
 #define VOLUMETRICS_SEGMENT_GLSL
 
 #include "shaders/interface/lights.glsl"
-#include "shaders/lib/phase.glsl"
 #include "shaders/lib/work.glsl"
 #include "shaders/volumetrics/extinction.glsl"
 #include "shaders/volumetrics/light_transmittance.glsl"
 #include "shaders/volumetrics/ray.glsl"
+#include "shaders/volumetrics/scattering.glsl"
 
 struct March {
     vec3 radiance;
@@ -60,8 +60,7 @@ SunSegment sun_segment(Ray ray, float a, float b, Optics optics, inout Extinctio
 }
 
 vec3 sun_scattering(Ray ray, Medium m, Extinction effective_length) {
-    float p = phase(int(volumetrics.options.x), m.anisotropy, -dot(sun_direction(), ray.direction));
-    return sun_illuminance() * p * m.sigma_s * effective_length;
+    return sun_illuminance() * volume_scattering(m, -dot(sun_direction(), ray.direction)) * effective_length;
 }
 #endif
 
@@ -80,13 +79,30 @@ void add_global(Ray ray, float begin, float end, vec3 ambient, inout Extinction 
     march.transmittance *= optics.transmittance;
 }
 
+// Where a height medium and a thin haze share an endless tail, the one ends long before the other: each is closed form,
+// their product is not. Parts of growing length make of 6% (an endless sky) 0.2%.
+const int TAIL_PARTS = 5;
+const float TAIL_GROWTH = 5.0;
+const float TAIL_FIRST_PART = 4.0 / 3124.0;  // (growth - 1) / (growth^parts - 1)
+
 // Global media between the end of the march and the surface, or without end where there is none.
 void march_tail(Ray ray, float begin, float end, bool endless, vec3 ambient, Extinction sun_front, inout March march) {
     // What lies behind an optical depth of 16 cannot be seen: source and sun are taken from what lies before.
     Extinction sigma_t = to_extinction(volumetrics.homogeneous_sigma_t.rgb);
     float visible_end = min(end, begin + 16.0 / max(largest(sigma_t), 1.0e-30));
     Extinction before = march.transmittance;
+#if HEIGHT_MEDIA
+    float part_begin = begin;
+    float part_length = (visible_end - begin) * TAIL_FIRST_PART;
+    for (int i = 1; i < TAIL_PARTS; ++i) {
+        add_global(ray, part_begin, part_begin + part_length, ambient, sun_front, march);
+        part_begin += part_length;
+        part_length *= TAIL_GROWTH;
+    }
+    add_global(ray, part_begin, visible_end, ambient, sun_front, march);
+#else
     add_global(ray, begin, visible_end, ambient, sun_front, march);
+#endif
 #if CHROMATIC
     // The clearest channel shows more.
     float clearest_end = min(end, begin + 16.0 / max(smallest(sigma_t), 1.0e-30));

@@ -6,28 +6,74 @@
 #include "shaders/volumetrics/lamps.glsl"
 #include "shaders/volumetrics/segment.glsl"
 
+struct SegmentLight {
+    vec3 diffuse;  // ambient light and emission
+    vec3 sun;      // unshadowed
+    float sun_visibility;
+    vec3 lamps;
+    vec3 unshadowed_lamps;
+};
+
+#if HAS_SUN
+// What the local media leave of sunlight on its way to the segment: the mean over two points, each in its half of the
+// light gathered; x as in SunSegment.
+vec3 local_sun_transmittance(Ray ray, Segment segment, float x) {
+#if SUN_VOLUME
+    float path_length = segment.end - segment.begin;
+    float offset = FROXEL_HISTORY == 0 ? segment.offset : 0.5;
+    vec3 sum = vec3(0.0);
+    for (int i = 0; i < 2; ++i) {
+        float t = segment.begin + path_length * equal_transmittance(0.5 * (offset + float(i)), x);
+        sum += exp(-local_sun_optical_depth(ray.origin + ray.direction * t));
+    }
+    return 0.5 * sum;
+#else
+    return vec3(1.0);
+#endif
+}
+#endif
+
 // segment.offset: 0..1, where the segment is sampled, see below. `m` and `optics`: its medium. sun_front: the optical
 // depth towards the sun at the segment's begin; becomes that at its end.
-vec3 segment_light(Ray ray, Segment segment, Medium m, Optics optics, vec3 ambient, inout Extinction sun_front) {
+SegmentLight segment_light_parts(Ray ray, Segment segment, Medium m, Optics optics, vec3 ambient,
+                                 inout Extinction sun_front) {
     float path_length = segment.end - segment.begin;
-    vec3 gathered = (m.sigma_s * ambient + m.emission) * optics.effective_length;
+    SegmentLight light = SegmentLight(vec3(0.0), vec3(0.0), 1.0, vec3(0.0), vec3(0.0));
+    light.diffuse = (m.sigma_s * ambient + m.emission) * optics.effective_length;
 
 #if HAS_SUN
     // Visibility is sampled where that share of the light has been gathered.
     SunSegment sun = sun_segment(ray, segment.begin, segment.end, optics, sun_front);
     float t = segment.begin + path_length * equal_transmittance(segment.offset, sun.x);
     count_work(WORK_SHADOW_LOOKUPS, 1u);
-    float visible = sun_visibility(ray.origin + ray.direction * t, t * ray.forward_cosine);
-    gathered += visible * sun_scattering(ray, m, sun.effective_length);
+    light.sun_visibility = sun_visibility(visibility_point(ray, t), t * ray.forward_cosine);
+    light.sun = sun_scattering(ray, m, sun.effective_length) * local_sun_transmittance(ray, segment, sun.x);
 #endif
 
 #if LAMPS == 1
-    gathered += lamps_at(ray, segment.begin + segment.offset * path_length, m.anisotropy) * m.sigma_s *
-                optics.effective_length;
+    float t_visibility = segment.begin + segment.offset * path_length;
+    float t_lamps = FROXEL_HISTORY == 0 ? t_visibility : segment.begin + 0.5 * path_length;
+    light.lamps = lamps_at(ray, t_lamps, t_visibility, m, light.unshadowed_lamps) * optics.effective_length;
+    light.unshadowed_lamps *= optics.effective_length;
 #elif LAMPS == 2
-    gathered += lamps_over_segment(ray, segment);
+    light.lamps = lamps_over_segment(ray, segment, light.unshadowed_lamps);
+#endif
+    return light;
+}
+
+vec3 sum_of(SegmentLight light) {
+    vec3 gathered = light.diffuse;
+#if HAS_SUN
+    gathered += light.sun_visibility * light.sun;
+#endif
+#if LAMPS
+    gathered += light.lamps;
 #endif
     return gathered;
+}
+
+vec3 segment_light(Ray ray, Segment segment, Medium m, Optics optics, vec3 ambient, inout Extinction sun_front) {
+    return sum_of(segment_light_parts(ray, segment, m, optics, ambient, sun_front));
 }
 
 #endif

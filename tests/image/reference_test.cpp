@@ -105,6 +105,19 @@ TEST_F(ReferenceCommand, IsThePictureThatRenderDraws) {
     EXPECT_LT(far_off, shown.size.x * shown.size.y / 100);
 }
 
+// What two integrators of air and haze agree on, one on the GPU in single precision.
+TEST_F(ReferenceCommand, IsTheTechniqueReferenceInAirAndHaze) {
+    write_scene(folder_ / "scene.gltf", {.sun = true, .media = R"([
+        {"shape":"height","scattering":[0.003,0.008,0.02],"phase":"rayleigh","base":0,"falloff":15},
+        {"shape":"global","scattering":[0.004,0.004,0.004],"absorption":[0.002,0.001,0],"anisotropy":0.6}])"});
+    for (const char* phase : {"cornette_shanks", "double_henyey_greenstein"}) {
+        const std::vector<std::string> options{"--layer",     "scattering",     "--set", "shadows=false",
+                                               "--technique", "reference",      "--set", "max_distance=2000",
+                                               "--set",       std::string("phase=") + phase};
+        EXPECT_LT(relative_rmse(picture("render", options), picture("reference", options)), 1e-3) << phase;
+    }
+}
+
 TEST_F(ReferenceCommand, SettingsThatMatter) {
     const Image all = picture("reference");
     EXPECT_LT(relative_rmse(picture("reference", {"--set", "steps=1", "--preset", "fast"}), all), 1e-9);

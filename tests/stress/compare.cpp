@@ -77,7 +77,9 @@ void compare_with_truth(const StressFrame& frame, const Scene& scene, const Laye
                         Comparison& total, Findings& findings) {
     const auto& chosen = frame.options.volumetrics;
     const reference::Settings settings{.light_transmittance = chosen.light_transmittance,
-                                       .schlick = chosen.phase == volumetrics::PhaseFunction::schlick,
+                                       .phase = {.kind = static_cast<reference::ParticlePhase::Kind>(chosen.phase),
+                                                 .back_anisotropy = chosen.phase_back_anisotropy,
+                                                 .back_weight = chosen.phase_back_weight},
                                        .shadows = false,
                                        .ambient = frame.options.render.ambient,
                                        .black_surfaces = true,

@@ -14,19 +14,25 @@ const ProgramDesc program{.name = "volumetrics/march",
                                    {"HAS_SUN", {0, 1}},
                                    {"LAMPS", {0, 1, 2}},  // 1 + LampIntegration
                                    {"CHROMATIC", {0, 1}},
+                                   {"RAYLEIGH", {0, 1}},
+                                   {"LIGHT_VOLUMES", {0, 1, 2, 3}},
                                    {"COUNT_WORK", {0, 1}}},
-                          .valid = {}};
+                          .valid = [](const Permutation& p) {
+                              return is_rayleigh_permutation(p) && is_light_volume_permutation(p);
+                          }};
 const ProgramRegistry::Registration registration(program);
 
-Permutation permutation(const Inputs& inputs, const Settings& settings, const FrameMedia& media) {
+Permutation permutation(const Inputs& inputs, const Settings& settings, const FrameMedia& media,
+                        const LightVolumes& volumes) {
     const bool local = !media.local.empty();
     const int lamps = 1 + static_cast<int>(settings.lamp_integration);
-    const int heights = static_cast<int>(media.data.counts.x);
-    return {{"HEIGHT_MEDIA", heights > 1 ? MAX_HEIGHT_MEDIA : heights},
+    return {{"HEIGHT_MEDIA", height_media_axis(media)},
             {"LOCAL_MEDIA", local + (local && media.local_emission)},
             {"HAS_SUN", inputs.has_sun},
             {"LAMPS", inputs.has_lamps ? lamps : 0},
             {"CHROMATIC", media.chromatic},
+            {"RAYLEIGH", rayleigh_axis(media, inputs.has_sun || inputs.has_lamps)},
+            {"LIGHT_VOLUMES", volumes.axis()},
             {"COUNT_WORK", inputs.count_work}};
 }
 
@@ -39,7 +45,7 @@ Outputs add_march(PassList& passes, const PassResources& resources, const Inputs
     outputs.scattering = passes.create("volumetrics/scattering", desc);
     if (media.chromatic) outputs.transmittance = passes.create("volumetrics/transmittance", desc);
 
-    const gl::Program& shader = resources.shaders.get(program, permutation(inputs, settings, media));
+    const gl::Program& shader = resources.shaders.get(program, permutation(inputs, settings, media, resources.light_volumes));
     const bool lit = inputs.has_sun || inputs.has_lamps || inputs.has_ambient;
     passes.add(
         "volumetrics/march",
@@ -48,6 +54,7 @@ Outputs add_march(PassList& passes, const PassResources& resources, const Inputs
             builder.sample(froxels.scattering);
             builder.sample(froxels.extinction);
             builder.sample(froxels.emission);
+            resources.light_volumes.sample(builder);
             if (lit) {
                 for (TextureRef texture : inputs.light_textures) builder.sample(texture);
                 for (BufferRef buffer : inputs.light_buffers) builder.read(buffer);
@@ -66,6 +73,7 @@ Outputs add_march(PassList& passes, const PassResources& resources, const Inputs
                                       {texture(froxels.extinction), resources.linear},
                                       {texture(froxels.emission), resources.linear}};
             resources.uniforms.bind(GL_UNIFORM_BUFFER, BINDING_VOLUMETRICS);
+            resources.light_volumes.bind();
             resources.dither.bind(GL_SHADER_STORAGE_BUFFER, BINDING_DITHER);
             shader.use();
             gl::draw_fullscreen();

@@ -2,6 +2,16 @@
 
 namespace tyndall::volumetrics {
 
+namespace {
+
+SettingsTable::Text curve_text(int part) {
+    const std::string number = std::to_string(part);
+    return {"froxel_curve_" + number, "Froxel curve " + number,
+            "Distribution curve: relative thickness of the slices in eighth " + number + " of them, from the eye on."};
+}
+
+}  // namespace
+
 const SettingsTable& settings_table() {
     using Effect = SettingEffect;
     using Scale = SettingScale;
@@ -39,13 +49,24 @@ const SettingsTable& settings_table() {
             .boolean(
                 &S::light_transmittance,
                 {"light_transmittance", "Light transmittance",
-                 "Light is attenuated by global media on its way to the point that scatters it; local media do "
-                 "not attenuate it, and a homogeneous medium does not attenuate the sun."},
-                Effect::uniform)
+                 "Light is attenuated by media on its way to the point or surface it reaches, by local ones as the "
+                 "sun and lamp volumes hold them; a homogeneous global medium does not attenuate the sun."},
+                Effect::permutation)
             .choice(&S::phase,
                     {"phase", "Phase function",
-                     "Henyey-Greenstein, or Schlick's approximation of it, which is slightly cheaper."},
-                    {"henyey_greenstein", "schlick"}, Effect::uniform)
+                     "Of all media but air: Henyey-Greenstein; Schlick's approximation of it, which is slightly "
+                     "cheaper; Cornette-Shanks, which becomes Rayleigh's as the anisotropy goes to 0; or a second, "
+                     "backward lobe of Henyey-Greenstein."},
+                    {"henyey_greenstein", "schlick", "cornette_shanks", "double_henyey_greenstein"},
+                    Effect::uniform)
+            .real(&S::phase_back_anisotropy,
+                  {"phase_back_anisotropy", "Back lobe anisotropy",
+                   "Mean cosine of the backward lobe of the phase function double_henyey_greenstein."},
+                  -0.999, 0)
+            .real(&S::phase_back_weight,
+                  {"phase_back_weight", "Back lobe weight",
+                   "Share of the light that double_henyey_greenstein scatters in its backward lobe."},
+                  0, 1)
             .choice(&S::dither,
                     {"dither", "Dither",
                      "Where in its segments a pixel samples: the middle, white noise, or the Bayer matrix; costs "
@@ -89,13 +110,121 @@ const SettingsTable& settings_table() {
                 &S::froxel_distribution,
                 {"froxel_distribution", "Froxel distribution",
                  "Slices of equal thickness; in proportion to their depth, from 1/256 of the far distance on; or "
-                 "logarithmic, in between: equal near the eye, in proportion to depth far from it."},
-                {"linear", "exponential", "logarithmic"}, Effect::uniform)
+                 "logarithmic, in between: equal near the eye, in proportion to depth far from it; a curve of your "
+                 "own; or auto, where the media in view are and before they have dimmed."},
+                {"linear", "exponential", "logarithmic", "curve", "auto"}, Effect::uniform)
+            .real(&S::froxel_curve_1, curve_text(1), 0.001, 1000, Scale::logarithmic)
+            .real(&S::froxel_curve_2, curve_text(2), 0.001, 1000, Scale::logarithmic)
+            .real(&S::froxel_curve_3, curve_text(3), 0.001, 1000, Scale::logarithmic)
+            .real(&S::froxel_curve_4, curve_text(4), 0.001, 1000, Scale::logarithmic)
+            .real(&S::froxel_curve_5, curve_text(5), 0.001, 1000, Scale::logarithmic)
+            .real(&S::froxel_curve_6, curve_text(6), 0.001, 1000, Scale::logarithmic)
+            .real(&S::froxel_curve_7, curve_text(7), 0.001, 1000, Scale::logarithmic)
+            .real(&S::froxel_curve_8, curve_text(8), 0.001, 1000, Scale::logarithmic)
             .boolean(&S::froxel_jitter,
                      {"froxel_jitter", "Froxel jitter",
                       "Technique froxel: visibility is sampled at another place of each froxel, column and frame; "
                       "noise instead of bands."},
                      Effect::uniform)
+            .integer(&S::froxel_history,
+                     {"froxel_history", "Froxel history",
+                      "Technique froxel: frames over which the visibility of sun and lamps is averaged, sampled all over "
+                      "the froxel; more is smoother, and moving shadows lag more. 0: none, which costs nothing."},
+                     0, 256, Effect::resource)
+            .integer(&S::billboard_layers,
+                     {"billboard_layers", "Billboard layers",
+                      "Technique billboards: sheets of the global media up to the maximum distance, each lit at every "
+                      "pixel; time grows in proportion."},
+                     1, 256, Effect::uniform, Scale::logarithmic)
+            .integer(&S::billboard_local_layers,
+                     {"billboard_local_layers", "Billboard local layers",
+                      "Technique billboards: sheets of each local medium; time grows in proportion where it is seen."},
+                     1, 64, Effect::uniform, Scale::logarithmic)
+            .real(&S::billboard_fade,
+                  {"billboard_fade", "Billboard fade",
+                   "Technique billboards: density falls to 0 over this distance to the eye, so that no sheet is seen "
+                   "edge on or pops; 0 is none.",
+                   "m"},
+                  0, 10)
+            .integer(&S::particle_count,
+                     {"particle_count", "Particles",
+                      "Technique particles: of the global media, round the eye, a tenth of them in view; noise falls "
+                      "and detail grows with it, time grows in proportion."},
+                     512, 1048576, Effect::resource, Scale::logarithmic)
+            .integer(&S::particle_local_count,
+                     {"particle_local_count", "Local particles",
+                      "Technique particles: of all local media in view together, by volume and extinction, at least "
+                      "32 each; time grows in proportion."},
+                     32, 1048576, Effect::resource, Scale::logarithmic)
+            .real(&S::particle_distance,
+                  {"particle_distance", "Particle distance",
+                   "Technique particles: where those of the global media end, behind them is the closed form without "
+                   "shadows or lamps; particles are as fine as it is short.",
+                   "m"},
+                  4, 4096, Scale::logarithmic)
+            .real(&S::particle_size,
+                  {"particle_size", "Particle size",
+                   "Technique particles: radius in units of their spacing; larger are softer and less noisy, and cost "
+                   "the square of it."},
+                  0.25, 4)
+            .real(&S::particle_drift,
+                  {"particle_drift", "Particle drift",
+                   "Technique particles: how fast they move; a function of time, so that a time has one picture.",
+                   "m/s"},
+                  0, 10)
+            .choice(&S::fog_mode,
+                    {"fog_mode", "Fog mode",
+                     "Technique analytic_fog: transmittance that falls linearly with distance, as a Gaussian of it, or "
+                     "exponentially, with the media as they are at the eye; or exponential with their height profiles."},
+                    {"linear", "squared", "exponential", "height"}, Effect::uniform)
+            .choice(&S::radial_occlusion,
+                    {"radial_occlusion", "Radial occlusion",
+                     "Technique radial_shafts: the share of samples towards the sun on screen that something covers; or "
+                     "which parts of the view ray the surfaces seen there shadow."},
+                    {"coverage", "intervals"}, Effect::permutation)
+            .integer(&S::radial_samples,
+                     {"radial_samples", "Radial samples",
+                      "Technique radial_shafts: depths read between a pixel and the sun on screen."},
+                     1, 512, Effect::uniform, Scale::logarithmic)
+            .real(&S::radial_decay,
+                  {"radial_decay", "Radial decay",
+                   "Technique radial_shafts, coverage: weight of a sample at the sun relative to one at the pixel, "
+                   "exponential in between."},
+                  0.01, 100, Scale::logarithmic)
+            .real(&S::radial_unseen,
+                  {"radial_unseen", "Radial unseen",
+                   "Technique radial_shafts: share of the sun's light that arrives where the sun is out of the picture, "
+                   "and nothing is known about its way: 1 outdoors, about 0 in a closed room."},
+                  0, 1)
+            .integer(&S::sun_volume_size,
+                     {"sun_volume_size", "Sun volume size",
+                      "Texels across the box round all local media, which holds what they leave of sunlight, and "
+                      "half as many along it; made anew only when media or sun change."},
+                     8, 512, Effect::resource, Scale::logarithmic)
+            .integer(&S::lamp_volume_size,
+                     {"lamp_volume_size", "Lamp volume size",
+                      "Directions across, and distances, of the volume that holds what local media leave of the "
+                      "light of one lamp."},
+                     4, 64, Effect::resource, Scale::logarithmic)
+            .integer(&S::lamp_volume_count,
+                     {"lamp_volume_count", "Lamp volumes",
+                      "Most lamps whose light local media attenuate, those whose range is nearest to the eye "
+                      "first."},
+                     1, 1024, Effect::resource, Scale::logarithmic)
+            .integer(&S::shaft_grid,
+                     {"shaft_grid", "Shaft grid",
+                      "Technique shaft_geometry: cells per side of the sun's mesh; edges of shafts are as fine as a "
+                      "cell, time grows with the square."},
+                     16, 2048, Effect::resource, Scale::logarithmic)
+            .integer(&S::shaft_segments,
+                     {"shaft_segments", "Shaft segments",
+                      "Technique shaft_geometry: closed forms per ray in a mixture of media; one homogeneous or "
+                      "height medium alone needs one."},
+                     1, 64, Effect::uniform, Scale::logarithmic)
+            .integer(&S::shaft_lamp_parts,
+                     {"shaft_lamp_parts", "Shaft lamp parts",
+                      "Technique shaft_geometry: closed forms, each with its own shadow, per lamp and ray."},
+                     1, 64, Effect::uniform, Scale::logarithmic)
             .integer(&S::reference_steps,
                      {"reference_steps", "Reference steps",
                       "Samples per ray of the technique reference, where its error falls in proportion; taken as a "

@@ -28,13 +28,41 @@ double over_sphere(Phase phase, double g, double power_of_cosine) {
 }
 
 TEST(ReferencePhase, IntegratesToOne) {
-    for (const Phase phase : {&henyey_greenstein, &schlick})
+    for (const Phase phase : {&henyey_greenstein, &schlick, &cornette_shanks})
         for (const double g : {-0.999, -0.95, -0.4, 0.0, 0.3, 0.76, 0.93, 0.95, 0.999, 1.0})
             EXPECT_NEAR(over_sphere(phase, g, 0), 1, 1e-8) << g;
 }
 
 TEST(ReferencePhase, MeanCosineOfHenyeyGreensteinIsG) {
     for (const double g : {-0.9, -0.2, 0.0, 0.5, 0.99}) EXPECT_NEAR(over_sphere(&henyey_greenstein, g, 1), g, 1e-8);
+}
+
+TEST(ReferencePhase, MeanCosineOfCornetteShanks) {
+    for (const double g : {-0.9, -0.2, 0.0, 0.5, 0.99})
+        EXPECT_NEAR(over_sphere(&cornette_shanks, g, 1), 3 * g * (4 + g * g) / (5 * (2 + g * g)), 1e-8);
+}
+
+TEST(ReferencePhase, RayleighIsCornetteShanksWithoutAnisotropy) {
+    for (const double cosine : {-1.0, -0.3, 0.0, 0.8, 1.0}) {
+        EXPECT_DOUBLE_EQ(rayleigh(cosine), 3 / (16 * pi) * (1 + cosine * cosine));
+        EXPECT_DOUBLE_EQ(cornette_shanks(0, cosine), rayleigh(cosine));
+        EXPECT_LE(rayleigh(cosine), rayleigh_peak());
+    }
+}
+
+TEST(ReferencePhase, OfTheSettings) {
+    using Kind = ParticlePhase::Kind;
+    for (const double g : {-0.7, 0.0, 0.4, 0.95})
+        for (const double cosine : {-1.0, -0.3, 0.6, 1.0}) {
+            EXPECT_EQ(ParticlePhase{}(g, cosine), henyey_greenstein(g, cosine));
+            EXPECT_EQ(ParticlePhase{Kind::schlick}(g, cosine), schlick(g, cosine));
+            EXPECT_EQ(ParticlePhase{Kind::cornette_shanks}(g, cosine), cornette_shanks(g, cosine));
+            const ParticlePhase two{Kind::double_henyey_greenstein, -0.3, 0.25};
+            EXPECT_DOUBLE_EQ(two(g, cosine),
+                             0.75 * henyey_greenstein(g, cosine) + 0.25 * henyey_greenstein(-0.3, cosine));
+            for (const ParticlePhase& p : {ParticlePhase{}, {Kind::schlick}, {Kind::cornette_shanks}, two})
+                EXPECT_LE(p(g, cosine), p.peak(g) * (1 + 1e-12));
+        }
 }
 
 TEST(ReferencePhase, SchlickIsCloseToHenyeyGreenstein) {

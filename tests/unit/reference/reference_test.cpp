@@ -103,6 +103,30 @@ TEST(Reference, SunInAHomogeneousMedium) {
     expect_close(ray.transmittance, dvec3(std::exp(-sigma_t * distance)), 1e-6);
 }
 
+// Air by Rayleigh, haze by its own phase function, each in every channel.
+TEST(Reference, SunInAirAndHaze) {
+    const dvec3 to_sun = glm::normalize(dvec3(0.3, 0.5, 1)), d = glm::normalize(dvec3(0.1, -0.2, -1));
+    const double cosine = glm::dot(to_sun, d), air_phase = 3 / (16 * pi) * (1 + cosine * cosine);
+    const dvec3 air(0.01f, 0.02f, 0.05f);
+    for (const float haze : {0.0f, 0.03f}) {
+        World w;
+        w.sun(glm::vec3(to_sun));
+        Medium& m = w.medium(Shape::global, 0, 0);
+        m.sigma_s = glm::vec3(air);
+        m.rayleigh = true;
+        w.medium(Shape::global, haze, 0.02f, 0.6f);
+        w.wall(-20);
+        const dvec3 sigma_t = air + double(haze) + double(0.02f);
+        const dvec3 share = (1.0 - glm::exp(-sigma_t * (20 / -d.z))) / sigma_t;
+        const dvec3 hg = sun_lux * (air * air_phase + haze * phase(0.6f, cosine)) * share;
+        expect_close(w.trace(dvec3(0), d).scattering, hg, 1e-6);
+        Settings two = World::exact();
+        two.phase = {ParticlePhase::Kind::double_henyey_greenstein, -0.5, 0.2};
+        const double lobes = 0.8 * phase(0.6f, cosine) + 0.2 * phase(-0.5, cosine);
+        expect_close(w.trace(dvec3(0), d, two).scattering, sun_lux * (air * air_phase + haze * lobes) * share, 1e-6);
+    }
+}
+
 TEST(Reference, ColouredAndExtremeExtinction) {
     for (const double scale : {1e-8, 1.0, 1e4}) {
         World w;

@@ -73,6 +73,15 @@ TEST(Medium, Defaults) {
     EXPECT_EQ(medium.rotation, glm::quat(1, 0, 0, 0));
 }
 
+TEST(Medium, AirHasRayleighsPhase) {
+    const json air{{"shape", "height"}, {"scattering", {1, 2, 3}}, {"base", 0}, {"falloff", 8000}, {"phase", "rayleigh"}};
+    EXPECT_TRUE(parse_one(air).rayleigh);
+    json haze{{"shape", "global"}, {"scattering", {1, 2, 3}}, {"anisotropy", 0.5}};
+    EXPECT_FALSE(parse_one(haze).rayleigh);
+    haze["phase"] = "mie";
+    EXPECT_FALSE(parse_one(haze).rayleigh);
+}
+
 TEST(Medium, BareListAndObjectAreTheSame) {
     EXPECT_EQ(parse_media(json::array({ball(), box()}), "a").size(), 2u);
     EXPECT_EQ(parse_media({{"media", json::array({ball(), box()})}}, "a").size(), 2u);
@@ -111,6 +120,11 @@ TEST(Medium, EveryMistakeNamesFileIndexAndKey) {
         {with(ball(), "anisotropy", 1), ".anisotropy"},
         {with(ball(), "anisotropy", -1), ".anisotropy"},
         {with(ball(), "anisotropy", true), ".anisotropy"},
+        {with(ball(), "phase", "rayleigh"), ".phase: only the shapes global and height"},
+        {{{"shape", "global"}, {"scattering", {1, 1, 1}}, {"phase", "air"}}, ".phase: \"air\" given, one of mie, rayleigh"},
+        {{{"shape", "global"}, {"scattering", {1, 1, 1}}, {"phase", 1}}, ".phase"},
+        {{{"shape", "global"}, {"scattering", {1, 1, 1}}, {"phase", "rayleigh"}, {"anisotropy", 0.5}},
+         ".phase: rayleigh has no anisotropy"},
         {with(ball(), "radius", 0), ".radius"},
         {with(ball(), "radius", nullptr), ".radius"},
         {with(box(), "size", {1, 0, 1}), ".size[1]"},

@@ -38,7 +38,8 @@ double eval(int kind, float g, double c) {
 }
 
 TEST(Phase, IntegratesToOneOverTheSphere) {
-    for (int kind : {glsl::PHASE_ISOTROPIC, glsl::PHASE_HENYEY_GREENSTEIN, glsl::PHASE_SCHLICK}) {
+    for (int kind :
+         {glsl::PHASE_ISOTROPIC, glsl::PHASE_HENYEY_GREENSTEIN, glsl::PHASE_SCHLICK, glsl::PHASE_CORNETTE_SHANKS}) {
         for (float g : kAnisotropies) {
             const double total = sphere_integral([&](double c) { return eval(kind, g, c); }, g < 0 ? -1 : 1);
             EXPECT_NEAR(total, 1.0, 1e-4) << "kind " << kind << " g " << g;
@@ -59,6 +60,60 @@ TEST(Phase, HenyeyGreensteinMatchesTheFormulaInDoublePrecision) {
         for (double c = -1.0; c <= 1.0; c += 1.0 / 512) {
             const double expected = hg_exact(g, c);
             EXPECT_NEAR(eval(glsl::PHASE_HENYEY_GREENSTEIN, g, c) / expected, 1.0, 2e-4) << "g " << g << " c " << c;
+        }
+    }
+}
+
+// Of <cos> and <cos^3> of Henyey-Greenstein, g and (3 g + 2 g^3) / 5.
+TEST(Phase, MeanCosineOfCornetteAndShanks) {
+    for (float g : kAnisotropies) {
+        const double mean =
+            sphere_integral([&](double c) { return c * eval(glsl::PHASE_CORNETTE_SHANKS, g, c); }, g < 0 ? -1 : 1);
+        EXPECT_NEAR(mean, 3 * g * (4 + g * g) / (5 * (2 + g * g)), 1e-4) << g;
+    }
+}
+
+TEST(Phase, CornetteAndShanksLiesBetweenRayleighAndHenyeyGreenstein) {
+    for (double c : {-1.0, -0.6, 0.0, 0.3, 1.0}) {
+        EXPECT_NEAR(eval(glsl::PHASE_CORNETTE_SHANKS, 0.0f, c), 3 / (16 * kPi) * (1 + c * c), 1e-8);
+        const double expected = hg_exact(0.6f, c) * 1.5 * (1 + c * c) / (2 + 0.36);
+        EXPECT_NEAR(eval(glsl::PHASE_CORNETTE_SHANKS, 0.6f, c) / expected, 1, 1e-6);
+    }
+    EXPECT_NEAR(eval(glsl::PHASE_CORNETTE_SHANKS, 0.999f, 1.0) / hg_exact(0.999, 1), 1, 1e-3);
+}
+
+TEST(Phase, RayleighIsNormalisedAndSymmetric) {
+    const auto p = [](double c) { return double{glsl::phase_rayleigh(static_cast<float>(c))}; };
+    EXPECT_NEAR(sphere_integral(p, 1), 1, 1e-6);
+    EXPECT_NEAR(sphere_integral([&](double c) { return c * p(c); }, 1), 0, 1e-6);
+    for (double c : {0.0, 0.3, 0.9, 1.0}) EXPECT_EQ(p(c), p(-c));
+    EXPECT_NEAR(p(1), 2 * p(0), 1e-8);
+}
+
+TEST(Phase, TwoLobesAreNormalisedAndMixTheirMeans) {
+    for (float g : kAnisotropies) {
+        for (float back : {0.0f, -0.3f, -0.9f}) {
+            for (float weight : {0.0f, 0.2f, 1.0f}) {
+                const auto p = [&](double c) {
+                    return double{
+                        glsl::phase(glsl::PHASE_DOUBLE_HENYEY_GREENSTEIN, g, back, weight, static_cast<float>(c))};
+                };
+                // Peaks at both ends: both halves of the sphere from their ends inwards.
+                const auto sphere = [](const auto& f) {
+                    const auto over_v = [&](double v) {
+                        const double from_end = std::exp(-v);
+                        return 2 * kPi * from_end * (f(1 - from_end) + f(from_end - 1));
+                    };
+                    return test::integrate_panels(over_v, 0, 40, 500);
+                };
+                const auto moment = [&](double c) { return c * p(c); };
+                EXPECT_NEAR(sphere(p), 1, 1e-4) << g << ' ' << back << ' ' << weight;
+                EXPECT_NEAR(sphere(moment), g * (1 - weight) + back * weight, 1e-4);
+                for (double c : {-1.0, 0.2, 1.0}) {
+                    const auto lobe = [&](float of) { return eval(glsl::PHASE_HENYEY_GREENSTEIN, of, c); };
+                    EXPECT_NEAR(p(c), (1 - double{weight}) * lobe(g) + weight * lobe(back), 1e-6 * p(c));
+                }
+            }
         }
     }
 }
@@ -99,10 +154,11 @@ TEST(Phase, SchlickIsCloseToHenyeyGreenstein) {
 }
 
 TEST(Phase, StaysFiniteAndPositiveForEveryInput) {
-    for (int kind : {glsl::PHASE_HENYEY_GREENSTEIN, glsl::PHASE_SCHLICK}) {
+    for (int kind : {glsl::PHASE_HENYEY_GREENSTEIN, glsl::PHASE_SCHLICK, glsl::PHASE_CORNETTE_SHANKS,
+                     glsl::PHASE_DOUBLE_HENYEY_GREENSTEIN}) {
         for (float g : {-1.0f, -0.999f, -0.97f, 0.0f, 0.94f, 0.97f, 0.999f, 1.0f}) {
             for (float c : {-1.0000002f, -1.0f, 0.0f, 1.0f, 1.0000002f}) {
-                const float p = glsl::phase(kind, g, c);
+                const float p = glsl::phase(kind, g, -0.999f, 0.5f, c);
                 EXPECT_TRUE(std::isfinite(p) && p > 0.0f)
                     << "kind " << kind << " g " << g << " c " << c << ": " << p;
             }

@@ -40,6 +40,23 @@ TEST(VolumetricsMedia, HomogeneousMediaAddAndAverageTheirAnisotropyByScattering)
     EXPECT_TRUE(media.chromatic);
 }
 
+TEST(VolumetricsMedia, AirIsKeptApartAndHasNoPartInTheAnisotropy) {
+    Inputs inputs = view_inputs();
+    inputs.global = {{.sigma_s = {0.1F, 0.2F, 0.4F}, .anisotropy = 0.9F, .rayleigh = true},
+                     {.sigma_s = glm::vec3(0.3F), .anisotropy = 0.5F},
+                     {.sigma_s = glm::vec3(0.1F), .anisotropy = -0.5F},
+                     {.sigma_s = {0.01F, 0.02F, 0.04F}, .anisotropy = 0.9F, .rayleigh = true, .height = true}};
+    const FrameMedia media = gather_media(inputs, {});
+    EXPECT_TRUE(media.rayleigh);
+    EXPECT_NEAR(media.data.homogeneous_sigma_s.b, 0.8, 1e-6);
+    EXPECT_NEAR(media.data.homogeneous_sigma_s.w, 0.25, 1e-6);
+    EXPECT_NEAR(media.data.homogeneous_rayleigh.b, 0.4, 1e-6);
+    EXPECT_NEAR(media.data.height[0].sigma_s_rayleigh.b, 0.04, 1e-6);
+    EXPECT_EQ(media.data.height[0].emission_g.w, 0);
+    inputs.global = {{.sigma_s = glm::vec3(0.3F)}};
+    EXPECT_FALSE(gather_media(inputs, {}).rayleigh);
+}
+
 TEST(VolumetricsMedia, OnlyColouredExtinctionNeedsThreeTransmittances) {
     Inputs inputs = view_inputs();
     inputs.global = {{.sigma_s = {0.1F, 0.2F, 0.3F}, .sigma_a = {0.3F, 0.2F, 0.1F}}};

@@ -19,7 +19,7 @@ TEST(VolumetricsSettings, TableHoldsTheDefaultsAndExplainsEveryRow) {
         EXPECT_FALSE(row.label.empty()) << row.key;
         EXPECT_TRUE(row.help.ends_with('.')) << row.key;
     }
-    EXPECT_EQ(keys.size(), 22U);  // one row for each member of Settings
+    EXPECT_EQ(keys.size(), 52U);  // one row for each member of Settings
 }
 
 TEST(VolumetricsSettings, NamesAreInEnumOrder) {
@@ -38,6 +38,8 @@ TEST(VolumetricsSettings, NamesAreInEnumOrder) {
     EXPECT_EQ(settings.blur, Blur::gaussian);
     set.set("phase", "schlick");
     EXPECT_EQ(settings.phase, PhaseFunction::schlick);
+    set.set("phase", "double_henyey_greenstein");
+    EXPECT_EQ(settings.phase, PhaseFunction::double_henyey_greenstein);
     set.set("froxel_distribution", "linear");
     EXPECT_EQ(settings.froxel_distribution, DepthDistribution::linear);
     EXPECT_EQ(technique_names().at(static_cast<std::size_t>(Technique::ray_march)), "ray_march");
@@ -47,7 +49,8 @@ TEST(VolumetricsSettings, ValuesOutOfRangeAreRefused) {
     Settings settings;
     SettingsSet set;
     set.add(settings_table(), &settings);
-    for (const char* assignment : {"steps=0", "steps=1025", "dither_size=3", "blur_sigma=0", "technique=froxels"})
+    for (const char* assignment : {"steps=0", "steps=1025", "dither_size=3", "blur_sigma=0", "technique=froxels", "phase=rayleigh",
+                                   "phase_back_anisotropy=0.1", "phase_back_weight=1.1"})
         EXPECT_THROW(set.set(assignment), UsageError) << assignment;
 }
 

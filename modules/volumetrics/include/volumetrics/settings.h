@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include "engine/core/settings.h"
 
 namespace tyndall::volumetrics {
@@ -19,8 +21,10 @@ enum class LampIntegration { center, segment };
 enum class Stepping { uniform, exponential };
 enum class Dither { none, white, bayer };
 enum class Blur { none, gaussian, bilateral };
-enum class PhaseFunction { henyey_greenstein, schlick };
-enum class DepthDistribution { linear, exponential, logarithmic };
+enum class PhaseFunction { henyey_greenstein, schlick, cornette_shanks, double_henyey_greenstein };
+enum class DepthDistribution { linear, exponential, logarithmic, curve, automatic };
+enum class FogMode { linear, squared, exponential, height };
+enum class RadialOcclusion { coverage, intervals };
 
 /// Everything a person can choose. Ranges, units and help: `settings_table()`.
 struct Settings {
@@ -32,6 +36,8 @@ struct Settings {
     LampIntegration lamp_integration = LampIntegration::segment;
     bool light_transmittance = true;
     PhaseFunction phase = PhaseFunction::henyey_greenstein;
+    float phase_back_anisotropy = -0.5f;
+    float phase_back_weight = 0.2f;
     Dither dither = Dither::bayer;
     int dither_size = 8;
     Blur blur = Blur::bilateral;
@@ -40,13 +46,44 @@ struct Settings {
     int froxels_x = 160, froxels_y = 90, froxels_z = 64;
     float froxel_far = 128;
     DepthDistribution froxel_distribution = DepthDistribution::exponential;
+    float froxel_curve_1 = 0.3f, froxel_curve_2 = 0.5f, froxel_curve_3 = 0.7f, froxel_curve_4 = 1,
+          froxel_curve_5 = 1.5f, froxel_curve_6 = 2.5f, froxel_curve_7 = 6, froxel_curve_8 = 16;
     bool froxel_jitter = false;
+    int froxel_history = 0;
+    int sun_volume_size = 128;
+    int lamp_volume_size = 16;
+    int lamp_volume_count = 256;
+    int billboard_layers = 24;
+    int billboard_local_layers = 8;
+    float billboard_fade = 0.5f;
+    int particle_count = 65536;
+    int particle_local_count = 4096;
+    float particle_distance = 64;
+    float particle_size = 1;
+    float particle_drift = 0.1f;
+    FogMode fog_mode = FogMode::height;
+    RadialOcclusion radial_occlusion = RadialOcclusion::intervals;
+    int radial_samples = 32;
+    float radial_decay = 1.0f;
+    float radial_unseen = 1.0f;
+    int shaft_grid = 256;
+    int shaft_segments = 6;
+    int shaft_lamp_parts = 4;
     int reference_steps = 1024;
     int reference_lamp_samples = 16;
     int reference_light_steps = 16;
 };
 
 [[nodiscard]] const SettingsTable& settings_table();
+
+/// The settings froxel_curve_1 … 8: relative thickness of the slices in each eighth of them. Any positive numbers
+/// make a rising curve.
+inline constexpr std::array froxel_curve_settings{
+    &Settings::froxel_curve_1, &Settings::froxel_curve_2, &Settings::froxel_curve_3, &Settings::froxel_curve_4,
+    &Settings::froxel_curve_5, &Settings::froxel_curve_6, &Settings::froxel_curve_7, &Settings::froxel_curve_8};
+/// View depth / froxel_far at 0, 1/16 … 16/16 of the slices, rising from 0 to 1: a monotone cubic through the sums
+/// of the eight settings.
+[[nodiscard]] std::array<float, 17> froxel_curve(const Settings& settings);
 
 /// `--technique` names, in enum order.
 [[nodiscard]] const std::vector<std::string>& technique_names();
