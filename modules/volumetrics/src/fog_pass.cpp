@@ -1,0 +1,48 @@
+#include "fog_pass.h"
+
+#include "engine/gl/state.h"
+#include "engine/gl/vertex_array.h"
+#include "shaders/shared/bindings.h"
+
+namespace tyndall::volumetrics {
+
+Permutation fog_permutation(const Inputs& inputs, const FrameMedia& media) {
+    return {{"HEIGHT_MEDIA", height_media_axis(media)},
+            {"CHROMATIC", media.chromatic},
+            {"RAYLEIGH", rayleigh_axis(media, inputs.has_sun)},
+            {"COUNT_WORK", inputs.count_work}};
+}
+
+Outputs add_fog_pass(PassList& passes, const PassResources& resources, const Inputs& inputs,
+                     const FrameMedia& media, const char* name, const gl::Program& shader) {
+    const gl::TextureDesc desc{.format = GL_RGBA16F, .size = {inputs.size, 1}};
+    Outputs outputs;
+    outputs.scattering = passes.create("volumetrics/scattering", desc);
+    if (media.chromatic) outputs.transmittance = passes.create("volumetrics/transmittance", desc);
+    const bool lit = inputs.has_sun || inputs.has_ambient;
+    passes.add(
+        name,
+        [&](PassBuilder& builder) {
+            builder.sample(inputs.depth);
+            if (lit) {
+                for (TextureRef texture : inputs.light_textures) builder.sample(texture);
+                for (BufferRef buffer : inputs.light_buffers) builder.read(buffer);
+            }
+            outputs.scattering = builder.attach_color(outputs.scattering);
+            if (outputs.transmittance) outputs.transmittance = builder.attach_color(outputs.transmittance);
+        },
+        [depth = inputs.depth, bind_lighting = lit ? inputs.bind_lighting : nullptr, &shader,
+         &resources](const PassContext& context) {
+            gl::apply({});
+            context.bind_framebuffer();
+            if (bind_lighting) bind_lighting();
+            const BoundTextures bound{{context.texture(depth), resources.nearest}};
+            resources.uniforms.bind(GL_UNIFORM_BUFFER, BINDING_VOLUMETRICS);
+            resources.dither.bind(GL_SHADER_STORAGE_BUFFER, BINDING_DITHER);
+            shader.use();
+            gl::draw_fullscreen();
+        });
+    return outputs;
+}
+
+}  // namespace tyndall::volumetrics

@@ -1,0 +1,243 @@
+// The technique analytic_fog: its curves against their definitions, a mixture of media against quadrature, energy,
+// and what it leaves out. What it shares with other techniques is in march_test.cpp.
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "tests/gpu/support/gl_test.h"
+#include "tests/gpu/support/volumetrics_host.h"
+#include "tests/unit/shader_lib/quadrature.h"
+
+namespace tyndall::test {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+using volumetrics::FogMode;
+
+constexpr std::array all_modes{FogMode::linear, FogMode::squared, FogMode::exponential, FogMode::height};
+
+class AnalyticFog : public GlTest {
+  protected:
+    [[nodiscard]] static Settings settings(FogMode mode = FogMode::height) {
+        Settings settings = plain_settings(1);
+        settings.technique = volumetrics::Technique::analytic_fog;
+        settings.fog_mode = mode;
+        return settings;
+    }
+    StubHost host;
+};
+
+double relative(double value, double expected) {
+    return std::abs(value - expected) / std::abs(expected);
+}
+
+/// As GL_LINEAR, GL_EXP2 and GL_EXP define them, with one half at ln 2 mean free paths.
+double transmittance(FogMode mode, double mean_free_paths) {
+    const double halves = mean_free_paths / std::numbers::ln2;
+    switch (mode) {
+        case FogMode::linear:
+            return std::max((2 - halves) / 2, 0.0);
+        case FogMode::squared:
+            return std::pow(0.5, halves * halves);
+        default:
+            return std::pow(0.5, halves);
+    }
+}
+
+TEST_F(AnalyticFog, CurvesAreThoseOfTheirDefinitions) {
+    host.has_sun = true;
+    host.sun_direction = glm::normalize(glm::vec3(0.3F, -0.5F, 0.6F));
+    host.sun_illuminance = {1000, 2000, 4000};
+    host.ambient = {3, 2, 1};
+    const glm::vec3 sigma_s(0.02F, 0.04F, 0.06F), sigma_a(0.02F, 0.01F, 0.04F), emission(1, 4, 2);
+    host.global = {{.sigma_s = sigma_s, .sigma_a = sigma_a, .anisotropy = 0.5F, .emission = emission}};
+    host.size = {9, 1};
+    host.vertical_fov = 1e-4F;
+    host.view_depth = [](int x, int) { return x == 8 ? sky : 0.5F * std::pow(2.0F, static_cast<float>(x)); };
+    for (const FogMode mode : all_modes) {
+        const Frame frame = host.render(settings(mode));
+        for (int x = 0; x < 9; ++x)
+            for (int c = 0; c < 3; ++c) {
+                const double sigma_t = sigma_s[c] + sigma_a[c];
+                const double t = x == 8 ? 0 : transmittance(mode, sigma_t * 0.5 * std::exp2(x));
+                const double p = phase_hg(0.5, host.sun_direction.z);
+                const double source = sigma_s[c] * (p * host.sun_illuminance[c] + host.ambient[c]) + emission[c];
+                EXPECT_NEAR(frame.transmittance.at(x, 0)[c], t, 1e-3 * t + 3e-8) << int(mode) << ' ' << x;
+                EXPECT_LE(relative(frame.scattering.at(x, 0)[c], source / sigma_t * (1 - t)), 1e-3)
+                    << int(mode) << ' ' << x;
+            }
+    }
+}
+
+TEST_F(AnalyticFog, AllModesButHeightTakeTheMediaAtTheEye) {
+    host.has_sun = true;
+    host.sun_direction = glm::normalize(glm::vec3(0.3F, -0.5F, 0.6F));
+    host.sun_illuminance = glm::vec3(1000);
+    host.eye = {0, 7, 0};
+    host.global = {
+        {.sigma_s = glm::vec3(0.05F), .sigma_a = glm::vec3(0.03F), .height = true, .base = 2, .falloff = 4}};
+    const double density = std::exp(-5.0 / 4), sun_depth = 0.08 * density * 4 / -host.sun_direction.y;
+    for (const FogMode mode : {FogMode::linear, FogMode::squared, FogMode::exponential}) {
+        const Frame frame = host.render(settings(mode));
+        const double t = transmittance(mode, 0.08 * density * 10);
+        EXPECT_LE(relative(frame.transmittance.at(0, 0)[0], t), 1e-3);
+        EXPECT_LE(relative(frame.scattering.at(0, 0)[0],
+                           1000 / (4 * std::numbers::pi) * 5 / 8 * std::exp(-sun_depth) * (1 - t)),
+                  1e-3);
+    }
+}
+
+/// Radiance of a homogeneous and a height medium of one phase function under the sun, by quadrature.
+struct Mixture {
+    double homogeneous, height, falloff, eye_y, to_sun_y;
+    [[nodiscard]] double density(double y) const { return std::exp(-y / falloff); }
+    [[nodiscard]] double radiance(double dy, double length) const {
+        const auto depth_to = [&](double t) {
+            const double k = dy / falloff;
+            const double mean = std::abs(k * t) < 1e-9 ? 1 : -std::expm1(-k * t) / (k * t);
+            return height * density(eye_y) * mean * t + homogeneous * t;
+        };
+        const auto integrand = [&](double t) {
+            const double here = height * density(eye_y + dy * t);
+            return (here + homogeneous) * std::exp(-depth_to(t) - here * falloff / to_sun_y);
+        };
+        double sum = 0;  // panels that grow, so that near and far are both seen, as far as anything is
+        for (double a = 0, b = 0.1; a < length && depth_to(a) < 30; a = b, b *= 1.3)
+            sum += gauss_legendre(integrand, a, std::min(b, length));
+        return sum;
+    }
+};
+
+TEST_F(AnalyticFog, MixtureOfMediaAgreesWithQuadrature) {
+    host.has_sun = true;
+    host.sun_direction = glm::normalize(glm::vec3(0.4F, -0.6F, 0.2F));
+    host.sun_illuminance = glm::vec3(1000);
+    host.size = {2, 7};
+    host.vertical_fov = 1.6F;
+    host.view_depth = [](int x, int) { return x == 0 ? 30.0F : 3000.0F; };
+    double worst = 0;
+    for (const Mixture& m : {Mixture{0.001, 0.04, 8, 2, 0.6}, Mixture{0.01, 0.01, 3, 20, 0.6},
+                             Mixture{0.0003, 0.2, 1, 10, 0.6}, Mixture{0.02, 0.02, 50, 0, 0.6}}) {
+        host.eye = {0, m.eye_y, 0};
+        host.global = {{.sigma_s = glm::vec3(m.homogeneous)},
+                       {.sigma_s = glm::vec3(m.height), .height = true, .falloff = float(m.falloff)}};
+        Mixture mixture = m;
+        mixture.to_sun_y = -host.sun_direction.y;
+        const Frame frame = host.render(settings());
+        for (int x = 0; x < 2; ++x)
+            for (int y = 0; y < 7; ++y) {
+                const glm::dvec3 d = host.ray(x, y);
+                const double length = (x == 0 ? 30 : 3000) / -d.z;
+                const double expected = 1000 / (4 * std::numbers::pi) * mixture.radiance(d.y, length);
+                const double error = relative(frame.scattering.at(x, 6 - y)[0], expected);
+                worst = std::max(worst, error);
+                EXPECT_LE(error, 0.01) << m.falloff << ' ' << x << ' ' << y << ": "
+                                       << frame.scattering.at(x, 6 - y)[0] << " for " << expected;
+            }
+    }
+    RecordProperty("worst", std::to_string(worst));
+}
+
+TEST_F(AnalyticFog, WhiteFurnaceKeepsItsEnergy) {
+    // A medium that absorbs nothing, in light that comes from everywhere alike: what is lost is scattered in.
+    host.ambient = glm::vec3(8);
+    host.size = {3, 5};
+    host.vertical_fov = 1.6F;
+    host.view_depth = [](int x, int) { return x == 0 ? sky : x == 1 ? 5.0F : 400.0F; };
+    for (const FogMode mode : all_modes)
+        for (const bool mixture : {false, true}) {
+            host.global = {{.sigma_s = {0.05F, 0.01F, 0.2F}}};
+            if (mixture) host.global.push_back({.sigma_s = glm::vec3(0.1F), .height = true, .falloff = 2});
+            const Frame frame = host.render(settings(mode));
+            for (int i = 0; i < 15; ++i)
+                for (int c = 0; c < 3; ++c)
+                    EXPECT_NEAR(frame.scattering.at(i % 3, i / 3)[c] + 8 * frame.transmittance.at(i % 3, i / 3)[c],
+                                8, 0.016)
+                        << int(mode) << ' ' << i;
+        }
+}
+
+TEST_F(AnalyticFog, IsLinearInLight) {
+    host.has_sun = true;
+    host.global = {{.sigma_s = glm::vec3(0.05F), .anisotropy = 0.7F},
+                   {.sigma_s = glm::vec3(0.05F), .height = true, .falloff = 3}};
+    for (const FogMode mode : all_modes) {
+        const auto light = [&](float sun, float ambient) {
+            host.sun_illuminance = glm::vec3(sun);
+            host.ambient = glm::vec3(ambient);
+            return double(host.render(settings(mode)).scattering.at(0, 0)[0]);
+        };
+        EXPECT_LE(relative(light(100, 0) + light(0, 3), light(100, 3)), 2e-3);
+        EXPECT_LE(relative(7 * light(100, 3), light(700, 21)), 2e-3);
+        host.has_sun = false;
+        const double without = light(100, 3);
+        host.has_sun = true;
+        EXPECT_EQ(without, light(0, 3));
+    }
+}
+
+TEST_F(AnalyticFog, IsOnePassThatReadsOneDepthAPixel) {
+    host.count_work = true;
+    host.size = {8, 8};
+    host.has_sun = true;
+    host.global = {{.sigma_s = glm::vec3(0.1F)}, {.sigma_s = glm::vec3(0.1F), .height = true}};
+    host.lights = {point_light({0, 0, -3}, 10)};
+    const Frame frame = host.render(settings(FogMode::exponential));
+    EXPECT_THAT(frame.live_passes, ElementsAre("volumetrics/analytic_fog"));
+    const gl::WorkCounts& work = frame.work.at("volumetrics/analytic_fog");
+    EXPECT_EQ(work[int(gl::Work::texture_fetches)], 64U);
+    EXPECT_EQ(work[int(gl::Work::medium_samples)], 64U);
+    EXPECT_EQ(work[int(gl::Work::shadow_lookups)], 0U);
+    EXPECT_EQ(work[int(gl::Work::light_evaluations)], 0U);
+}
+
+TEST_F(AnalyticFog, LocalMediaAreLeftOut) {
+    const GlobalMedium fog{.sigma_s = glm::vec3(0.1F)};
+    const LocalMedium ball{.center = {0, 0, -5}, .sigma_s = {1, 2, 3}};
+    host.ambient = glm::vec3(1);
+    host.global = {fog};
+    const Image alone = host.render(settings()).scattering;
+    host.local = {ball};
+    const Frame frame = host.render(settings());
+    EXPECT_EQ(frame.scattering.pixels, alone.pixels);
+    EXPECT_EQ(frame.skipped.at("volumetrics/inject_media"), "technique is analytic_fog");
+    host.global.clear();
+    EXPECT_THAT(host.render(settings()).live_passes, IsEmpty());
+}
+
+TEST_F(AnalyticFog, ExtremesStayFiniteAndBounded) {
+    host.size = {3, 7};
+    host.vertical_fov = 2.9F;
+    host.has_sun = true;
+    host.ambient = glm::vec3(1);
+    host.sun_illuminance = glm::vec3(4);
+    host.view_depth = [](int x, int y) { return x == 0 ? sky : std::pow(10.0F, static_cast<float>(y - 3)); };
+    for (const float znear : {0.001F, 10.0F})
+        for (const glm::vec3 sun : {glm::vec3(1, 0, 0), {0, -1e-7F, 1}, {0, -1, 0}, {0, 1, 0}})
+            for (const float sigma : {1e-30F, 1e-8F, 1.0F, 1e4F})
+                for (const float base : {-1e6F, 0.0F, 1e6F})
+                    for (const float falloff : {0.01F, 1000.0F}) {
+                        host.znear = znear;
+                        host.sun_direction = glm::normalize(sun);
+                        const glm::vec3 sigma_s{sigma, 0, sigma}, sigma_a{0, sigma, 0};
+                        host.global = {{.sigma_s = sigma_s, .sigma_a = sigma_a},
+                                       {.sigma_s = sigma_s, .height = true, .base = base, .falloff = falloff}};
+                        for (const FogMode mode : all_modes) {
+                            const Frame frame = host.render(settings(mode));
+                            // Sun of 4 lx scattered isotropically is less than 1/pi; ambient light of 1.
+                            for (int i = 0; i < 21; ++i)
+                                for (int c = 0; c < 3; ++c) {
+                                    const float v = frame.scattering.at(i % 3, i / 3)[c];
+                                    const float t = frame.transmittance.at(i % 3, i / 3)[c];
+                                    ASSERT_TRUE(v >= 0 && v <= 1.33F) << v << ' ' << sigma << ' ' << base;
+                                    ASSERT_TRUE(t >= 0 && t <= 1) << t;
+                                }
+                        }
+                    }
+}
+
+}  // namespace
+}  // namespace tyndall::test
