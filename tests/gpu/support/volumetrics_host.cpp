@@ -44,9 +44,10 @@ GpuLight light_at(uint index) { return stub_lights[index]; }
 constexpr const char* shadows_glsl = R"(
 #include "shaders/interface/lights.glsl"
 float sun_visibility(vec3 world, float view_depth) {
-    if (stub_options.z != 1.0 || world.y > 4.0) return 1.0;
+    if ((stub_options.z != 1.0 && stub_options.z != 3.0) || world.y > 4.0) return 1.0;
     vec3 d = stub_sun_direction.xyz;
     float x = world.x - d.x / d.y * (world.y - 4.0);
+    if (stub_options.z == 3.0) return x < 0.0 ? 0.0 : 1.0;
     float z = world.z - d.z / d.y * (world.y - 4.0);
     return fract(0.37 * x + 0.21 * z) < 0.6 ? 1.0 : 0.0;
 }
@@ -148,7 +149,11 @@ Inputs StubHost::inputs(PassList& passes) {
     in.global = global;
     in.local = local;
     in.has_sun = has_sun;
+    in.sun_direction = sun_direction;
     in.has_lamps = !lights.empty();
+    for (std::size_t i = 0; i < lights.size(); ++i)
+        in.lamps.push_back({static_cast<std::uint32_t>(i), glm::vec3(lights[i].position_range),
+                            lights[i].position_range.w});
     in.has_ambient = ambient != glm::vec3(0);
     in.bind_lighting = [this] {
         uniforms_.bind(GL_UNIFORM_BUFFER, BINDING_FRAME);

@@ -1,0 +1,255 @@
+// Technique shaft_geometry: sunlight behind an occluder of known shape, against integration in double precision.
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/gpu/support/gl_test.h"
+#include "tests/gpu/support/volumetrics_host.h"
+#include "tests/unit/shader_lib/quadrature.h"
+
+namespace tyndall::test {
+namespace {
+
+struct Error {
+    double rms = 0;      ///< root mean square over the picture, relative to its mean
+    double largest = 0;  ///< largest difference, relative to the mean
+    double mean = 0;
+};
+
+class VolumetricsShaftGeometry : public GlTest {
+  protected:
+    StubHost host;
+    Settings settings = plain_settings(1);
+
+    void SetUp() override {
+        settings.technique = volumetrics::Technique::shaft_geometry;
+        settings.shaft_grid = 64;
+        settings.max_distance = 400;  // a ray to the sky is integrated as far
+        host.size = {32, 18};
+        host.has_sun = true;
+        host.sun_direction = glm::normalize(glm::vec3(0.3F, -1, 0.2F));
+        host.sun_illuminance = glm::vec3(10);
+        host.global = {{.sigma_s = glm::vec3(0.05F), .sigma_a = glm::vec3(0.01F), .anisotropy = 0.4F}};
+        host.shadows = 3;
+        host.view_depth = [](int x, int y) { return x % 5 == 4 ? sky : 4.0F + static_cast<float>(x + y); };
+    }
+
+    [[nodiscard]] double surface(int x, int y, glm::dvec3 ray) const {
+        const double depth = host.view_depth(x, y);
+        return depth == sky ? 400 : depth / -ray.z;
+    }
+    /// The part of a ray in the shadow of the half plane y = 4, x < 0; empty where x >= y.
+    [[nodiscard]] glm::dvec2 shadow(glm::dvec3 ray) const {
+        const glm::dvec3 eye = host.eye, d = host.sun_direction;
+        glm::dvec2 part(0, 1e9);
+        const auto keep_below_zero = [&](double at_eye, double rate) {
+            if (rate > 0) part.y = std::min(part.y, -at_eye / rate);
+            if (rate < 0) part.x = std::max(part.x, -at_eye / rate);
+            if (rate == 0 && at_eye >= 0) part.y = -1;
+        };
+        keep_below_zero(eye.y - 4, ray.y);
+        keep_below_zero(eye.x - d.x / d.y * (eye.y - 4), ray.x - d.x / d.y * ray.y);
+        return part;
+    }
+    /// int_a^b of the light that one point of the ray sends to the eye, along the red channel.
+    [[nodiscard]] double sunlight(glm::dvec3 ray, double a, double b) const {
+        const glm::dvec3 eye = host.eye, to_sun = -host.sun_direction;
+        const auto integrand = [&](double t) {
+            double source = 0, weighted = 0, depth = 0;
+            for (const GlobalMedium& m : host.global) {
+                const double sigma_t = m.sigma_s.r + m.sigma_a.r;
+                const double at_eye = m.height ? std::exp((m.base - eye.y) / m.falloff) : 1;
+                const double rise = ray.y * t / m.falloff;
+                const double density = m.height ? at_eye * std::exp(-rise) : 1;
+                const double mean = !m.height               ? 1
+                                    : std::abs(rise) < 1e-9 ? at_eye
+                                                            : -at_eye * std::expm1(-rise) / rise;
+                depth += sigma_t * mean * t;
+                if (m.height) depth += sigma_t * density * m.falloff / to_sun.y;  // towards the sun
+                source += m.sigma_s.r * density;
+                weighted += m.sigma_s.r * density * m.anisotropy;
+            }
+            // Anisotropies are averaged by scattering.
+            return source * phase_hg(weighted / source, glm::dot(to_sun, ray)) * host.sun_illuminance.r *
+                   std::exp(-depth);
+        };
+        return a < b ? integrate(integrand, a, b, 1e-9) : 0;
+    }
+    [[nodiscard]] double expected(int x, int y) const {
+        const glm::dvec3 ray = host.ray(x, y);
+        const double end = surface(x, y, ray);
+        const glm::dvec2 dark = host.shadows == 3 ? shadow(ray) : glm::dvec2(1, 0);
+        if (dark.x >= dark.y || dark.x >= end) return sunlight(ray, 0, end);
+        return sunlight(ray, 0, dark.x) + sunlight(ray, std::min(dark.y, end), end);
+    }
+    [[nodiscard]] Error error() {
+        const Frame frame = host.render(settings);
+        Error result;
+        double squares = 0;
+        for (int y = 0; y < host.size.y; ++y)
+            for (int x = 0; x < host.size.x; ++x) {
+                const double value = frame.scattering.at(x, host.size.y - 1 - y)[0], truth = expected(x, y);
+                EXPECT_TRUE(std::isfinite(value) && value >= 0);
+                result.mean += truth;
+                squares += (value - truth) * (value - truth);
+                result.largest = std::max(result.largest, std::abs(value - truth));
+            }
+        const double n = host.size.x * host.size.y;
+        result.mean /= n;
+        result.rms = std::sqrt(squares / n) / result.mean;
+        result.largest /= result.mean;
+        return result;
+    }
+};
+
+TEST_F(VolumetricsShaftGeometry, WithoutOccludersIsTheClosedForm) {
+    host.shadows = 0;
+    for (const glm::vec3 sun : {glm::vec3(0.3F, -1, 0.2F), glm::vec3(0.1F, -0.1F, 1), glm::vec3(0.1F, -0.1F, -1)}) {
+        host.sun_direction = glm::normalize(sun);  // from above; before the eye; behind it
+        const Error e = error();
+        EXPECT_LE(e.largest, 1e-3) << sun.z;
+    }
+}
+
+TEST_F(VolumetricsShaftGeometry, ShadowOfAHalfPlaneConvergesWithTheGrid) {
+    // The eye in the light beside the shadow, in the shadow, and above both.
+    for (const glm::vec3 eye : {glm::vec3(4, 0, 0), glm::vec3(-1, 1, 0), glm::vec3(-3, 9, 0)}) {
+        host.eye = eye;
+        std::vector<double> errors;
+        for (int grid : {32, 128, 512}) {
+            settings.shaft_grid = grid;
+            errors.push_back(error().rms);
+        }
+        EXPECT_LE(errors[1], 0.4 * errors[0]) << eye.x;
+        EXPECT_LE(errors[2], 0.4 * errors[1]) << eye.x;
+        EXPECT_LE(errors[2], 0.005) << eye.x;
+    }
+}
+
+TEST_F(VolumetricsShaftGeometry, ShadowIsRightTowardsAndAwayFromTheSun) {
+    settings.shaft_grid = 256;
+    for (const float z : {1.0F, -1.0F}) {
+        host.sun_direction = glm::normalize(glm::vec3(0.1F, -0.3F, z));
+        for (const float x : {2.0F, -2.0F}) {
+            host.eye = {x, 1, 0};
+            const Error e = error();
+            EXPECT_LE(e.rms, 0.02) << z << ' ' << x;
+        }
+    }
+}
+
+TEST_F(VolumetricsShaftGeometry, NoLightWhereAllThatIsSeenIsInShadow) {
+    host.eye = {-60, -20, 0};
+    host.view_depth = [](int, int) { return 10.0F; };
+    const Frame frame = host.render(settings);
+    host.shadows = 0;
+    const Frame lit = host.render(settings);
+    for (int y = 0; y < host.size.y; ++y)
+        for (int x = 0; x < host.size.x; ++x)
+            EXPECT_LE(frame.scattering.at(x, y)[0], 1e-5 * lit.scattering.at(x, y)[0]) << x << ' ' << y;
+}
+
+TEST_F(VolumetricsShaftGeometry, ShadowsTakeLightAwayAndSurfacesCutThem) {
+    for (const float depth : {0.02F, 0.5F, 3.0F, 30.0F}) {
+        host.view_depth = [depth](int, int) { return depth; };
+        host.znear = 0.01F;
+        host.eye = {1.3F, 0, 0};  // 0.1 m in the light
+        settings.shaft_grid = 512;
+        const Error e = error();
+        EXPECT_LE(e.rms, 0.02) << depth;
+        const Frame shadowed = host.render(settings);
+        host.shadows = 0;
+        const Frame lit = host.render(settings);
+        host.shadows = 3;
+        for (int y = 0; y < host.size.y; ++y)
+            for (int x = 0; x < host.size.x; ++x) {
+                EXPECT_LE(shadowed.scattering.at(x, y)[0], lit.scattering.at(x, y)[0] * 1.001F);
+                EXPECT_EQ(shadowed.scattering.at(x, y)[3], lit.scattering.at(x, y)[3]);
+            }
+    }
+}
+
+TEST_F(VolumetricsShaftGeometry, NearPlaneChangesNothing) {
+    host.eye = {0.5F, 1, 0};
+    host.znear = 1;
+    const Frame far_plane = host.render(settings);
+    host.znear = 0.01F;
+    const Frame near_plane = host.render(settings);
+    for (int y = 0; y < host.size.y; ++y)
+        for (int x = 0; x < host.size.x; ++x)
+            EXPECT_NEAR(far_plane.scattering.at(x, y)[0], near_plane.scattering.at(x, y)[0],
+                        2e-3 * near_plane.scattering.at(x, y)[0] + 1e-6);
+}
+
+TEST_F(VolumetricsShaftGeometry, LinearInLight) {
+    host.eye = {-1, 1, 0};
+    const Frame one = host.render(settings);
+    host.sun_illuminance *= 8.0F;
+    const Frame eight = host.render(settings);
+    for (int y = 0; y < host.size.y; ++y)
+        for (int x = 0; x < host.size.x; ++x)
+            EXPECT_NEAR(eight.scattering.at(x, y)[0], 8 * one.scattering.at(x, y)[0],
+                        1e-3 * eight.scattering.at(x, y)[0] + 1e-5);
+}
+
+TEST_F(VolumetricsShaftGeometry, OneHeightMediumIsExactAndMixturesAreClose) {
+    host.eye = {2, 1, 0};
+    settings.shaft_grid = 256;
+    const GlobalMedium fog{.sigma_s = glm::vec3(0.1F), .anisotropy = 0.2F, .height = true, .base = 1, .falloff = 3};
+    const GlobalMedium haze{.sigma_s = glm::vec3(0.01F), .sigma_a = glm::vec3(0.01F), .anisotropy = 0.6F};
+    host.shadows = 0;
+    host.global = {fog};
+    EXPECT_LE(error().largest, 2e-3);
+    host.global = {fog, haze};
+    settings.shaft_segments = 6;
+    host.shadows = 0;
+    const Error mixed = error();
+    host.shadows = 3;
+    const Error shadowed = error();
+    EXPECT_LE(mixed.rms, 0.01);
+    EXPECT_LE(shadowed.rms, 0.015);
+    host.shadows = 0;
+    settings.shaft_segments = 24;
+    EXPECT_LE(error().largest, 3e-3);
+}
+
+TEST_F(VolumetricsShaftGeometry, ExtremesStayFinite) {
+    for (const float distance : {1.0F, 1e5F})
+        for (const float sigma : {1e-9F, 1e3F})
+            for (const glm::vec3 sun :
+                 {glm::vec3(0, -1, 0), glm::vec3(0, 0, -1), glm::vec3(0, 1e-3F, 1), glm::vec3(0, 1, 0)}) {
+                settings.max_distance = distance;
+                settings.shaft_grid = 16;
+                host.sun_direction = glm::normalize(sun);
+                host.sun_illuminance = glm::vec3(1e6F);
+                host.eye = {1e5F, 3, -1e5F};
+                host.global = {{.sigma_s = glm::vec3(sigma, 2 * sigma, sigma)},
+                               {.sigma_s = glm::vec3(sigma), .height = true, .base = -100, .falloff = 0.5F}};
+                const Frame frame = host.render(settings);
+                for (int y = 0; y < host.size.y; ++y)
+                    for (int x = 0; x < host.size.x; ++x)
+                        for (int c = 0; c < 4; ++c) {
+                            const float value = frame.scattering.at(x, y)[c];
+                            ASSERT_TRUE(value >= 0 && value <= 65504) << value << ' ' << distance << ' ' << sigma;
+                        }
+            }
+}
+
+TEST_F(VolumetricsShaftGeometry, SkipsWhatIsNotThere) {
+    using Names = std::vector<std::string>;
+    EXPECT_EQ(host.render(settings).live_passes,
+              (Names{"volumetrics/shaft_mesh", "volumetrics/shaft_faces", "volumetrics/shaft_resolve"}));
+    host.has_sun = false;
+    Frame frame = host.render(settings);
+    EXPECT_EQ(frame.live_passes, (Names{"volumetrics/shaft_resolve"}));
+    EXPECT_EQ(frame.skipped.at("volumetrics/shaft_mesh"), "no sun");
+    host.global.clear();
+    host.local = {{.center = {0, 0, -5}, .sigma_s = glm::vec3(1)}};
+    frame = host.render(settings);
+    EXPECT_TRUE(frame.live_passes.empty());
+    EXPECT_EQ(frame.skipped.at("volumetrics/shaft_resolve"), "no global medium");
+    EXPECT_FALSE(frame.scattering.size.x > 0);
+}
+
+}  // namespace
+}  // namespace tyndall::test
