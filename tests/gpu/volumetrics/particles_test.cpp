@@ -1,0 +1,243 @@
+// The technique particles: what its discs add up to against closed forms, and where it may not fail.
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "tests/gpu/support/gl_test.h"
+#include "tests/gpu/support/volumetrics_host.h"
+
+namespace tyndall::test {
+namespace {
+
+using ::testing::ElementsAre;
+
+class VolumetricsParticles : public GlTest {
+  protected:
+    VolumetricsParticles() {
+        s.technique = volumetrics::Technique::particles;
+        s.particle_count = 4096;
+        host.size = {48, 32};
+        host.view_depth = [](int, int) { return 30.0F; };
+    }
+
+    StubHost host;
+    Settings s = plain_settings(1);
+
+    /// Mean over the picture of a channel of an image, and the standard deviation of its pixels.
+    static glm::dvec2 mean_and_deviation(const Image& image, int channel = 0) {
+        double sum = 0, squares = 0;
+        const double count = image.size.x * image.size.y;
+        for (int y = 0; y < image.size.y; ++y)
+            for (int x = 0; x < image.size.x; ++x) {
+                const double value = image.at(x, y)[channel];
+                sum += value;
+                squares += value * value;
+            }
+        return {sum / count, std::sqrt(std::max(squares / count - sum * sum / count / count, 0.0))};
+    }
+    void sunlight() {
+        host.has_sun = true;
+        host.sun_direction = glm::normalize(glm::vec3(0.3F, -1, 0.4F));
+        host.sun_illuminance = glm::vec3(1000);
+    }
+    /// A box that fills the view, with its front at 10 m and its back at 20 m.
+    void box_in_view(float sigma_s, float sigma_a) {
+        host.vertical_fov = 0.4F;
+        host.local = {{.box = true,
+                       .center = {0, 0, -15},
+                       .half_extent = {10, 8, 5},
+                       .sigma_s = glm::vec3(sigma_s),
+                       .sigma_a = glm::vec3(sigma_a)}};
+    }
+};
+
+TEST_F(VolumetricsParticles, TransmittanceOfGlobalMediaIsBeerLambert) {
+    host.view_depth = [](int x, int) { return 0.2F + 3.0F * static_cast<float>(x); };
+    host.global = {{.sigma_s = glm::vec3(0.01F), .sigma_a = {0, 0.01F, 0.04F}},
+                   {.sigma_a = glm::vec3(0.02F), .height = true, .falloff = 1e6F}};
+    const Frame frame = host.render(s);
+    for (int y = 0; y < 32; ++y)
+        for (int x = 0; x < 48; ++x)
+            for (int c = 0; c < 3; ++c) {
+                const double d = host.view_depth(x, 0) / -host.ray(x, 31 - y).z;
+                ASSERT_NEAR(frame.transmittance.at(x, y)[c], std::exp(-(0.03 + host.global[0].sigma_a[c]) * d),
+                            1e-3);
+            }
+}
+
+TEST_F(VolumetricsParticles, SunIsTheClosedFormWithAnyNumberOfParticles) {
+    sunlight();
+    host.global = {{.sigma_s = glm::vec3(0.02F), .sigma_a = glm::vec3(0.01F)}};
+    for (const int count : {512, 8192})
+        for (const float depth : {3.0F, 30.0F, 200.0F}) {
+            s.particle_count = count;
+            host.view_depth = [depth](int, int) { return depth; };
+            const Frame frame = host.render(s);
+            for (int y = 0; y < 32; ++y)
+                for (int x = 0; x < 48; ++x) {
+                    const double d = depth / -host.ray(x, 31 - y).z;
+                    const double expected = 1000 * phase_hg(0, 0) * 0.02 / 0.03 * -std::expm1(-0.03 * d);
+                    ASSERT_NEAR(frame.scattering.at(x, y)[0], expected, 3e-3 * expected) << count << ", " << depth;
+                }
+        }
+}
+
+// Half of the air in shadow: nothing but the particles knows.
+TEST_F(VolumetricsParticles, LampsAndShadowsAreThoseOfTheMarchOnAverage) {
+    host.vertical_fov = 0.8F;
+    host.view_depth = [](int, int) { return 12.0F; };
+    host.global = {{.sigma_s = glm::vec3(0.05F), .anisotropy = 0.3F}};
+    host.lights = {point_light({1, 3, -4}, 100), point_light({-3, -5, -5}, 100)};
+    host.shadows = 2;
+    sunlight();
+    host.sun_illuminance = glm::vec3(5);
+    Settings march = plain_settings(256);
+    const glm::dvec2 expected = mean_and_deviation(host.render(march).scattering);
+    double last = 1;
+    for (const auto& [count, tolerance] : {std::pair(4096, 0.15), std::pair(32768, 0.05)}) {
+        s.particle_count = count;
+        s.particle_distance = 24;
+        const Image image = host.render(s).scattering;
+        EXPECT_NEAR(mean_and_deviation(image).x, expected.x, tolerance * expected.x) << count;
+        const Image exact = host.render(march).scattering;
+        double error = 0;
+        for (int i = 0; i < 48 * 32; ++i) error += std::pow(image.pixels[4 * i] - exact.pixels[4 * i], 2);
+        error = std::sqrt(error / (48 * 32)) / expected.x;
+        EXPECT_LT(error, last) << count;
+        last = 0.75 * error;
+    }
+}
+
+TEST_F(VolumetricsParticles, LocalMediaTakeAwayWhatBeerLambertSays) {
+    s.particle_local_count = 8192;
+    for (const float sigma_t : {0.02F, 0.1F, 0.3F}) {
+        box_in_view(0, sigma_t);
+        const Frame frame = host.render(s);
+        double expected = 0;
+        for (int y = 0; y < 32; ++y)
+            for (int x = 0; x < 48; ++x) expected += std::exp(-sigma_t * 10 / -host.ray(x, y).z) / (48 * 32);
+        const glm::dvec2 found = mean_and_deviation(frame.transmittance);
+        // The mean of exp(-x) is exp(-mean) (1 + variance / 2): 10% deviation of the optical depth at most.
+        const double bias = expected * 0.5 * std::pow(0.1 * sigma_t * 10, 2);
+        EXPECT_NEAR(found.x, expected + 0.5 * bias, 0.5 * bias + 0.01 * expected) << sigma_t;
+        EXPECT_LT(found.y, expected * 0.15 * sigma_t * 10 + 0.03) << sigma_t;
+    }
+}
+
+TEST_F(VolumetricsParticles, LocalMediaUnderEqualLightGainAndLoseNothing) {
+    host.ambient = glm::vec3(1);
+    for (const float sigma_s : {0.02F, 0.3F, 50.0F}) {
+        box_in_view(sigma_s, 0);
+        host.global = {{.sigma_s = glm::vec3(0.01F)}};
+        const Frame frame = host.render(s);
+        for (int i = 0; i < 48 * 32; ++i)
+            ASSERT_NEAR(frame.scattering.pixels[4 * i] + frame.transmittance.pixels[3 * i], 1, 0.08) << sigma_s;
+    }
+}
+
+TEST_F(VolumetricsParticles, LocalLightIsTheClosedFormOnAverage) {
+    sunlight();
+    s.light_transmittance = false;
+    s.particle_local_count = 8192;
+    box_in_view(0.05F, 0.05F);
+    double expected = 0;
+    for (int y = 0; y < 32; ++y)
+        for (int x = 0; x < 48; ++x)
+            expected += 1000 * phase_hg(0, 0) * 0.5 * -std::expm1(-0.1 * 10 / -host.ray(x, y).z) / (48 * 32);
+    EXPECT_NEAR(mean_and_deviation(host.render(s).scattering).x, expected, 0.02 * expected);
+    // A surface halfway through the box ends it there.
+    host.view_depth = [](int, int) { return 15.0F; };
+    EXPECT_NEAR(mean_and_deviation(host.render(s).transmittance).x, std::exp(-0.1 * 5 * 1.02), 0.02);
+}
+
+TEST_F(VolumetricsParticles, NothingBehindAWallIsSeen) {
+    host.ambient = glm::vec3(1);
+    host.local = {{.center = {0, 0, -20}, .half_extent = {6, 6, 6}, .sigma_s = glm::vec3(1)}};
+    host.view_depth = [](int, int) { return 12.0F; };  // and the radius of a particle before it
+    const Frame frame = host.render(s);
+    for (int i = 0; i < 48 * 32; ++i) {
+        ASSERT_EQ(frame.scattering.pixels[4 * i], 0);
+        ASSERT_EQ(frame.transmittance.pixels[3 * i], 1);
+    }
+}
+
+TEST_F(VolumetricsParticles, TheyStayWhereTheyAreWhenTheEyeMoves) {
+    host.shadows = 1;
+    sunlight();
+    host.global = {{.sigma_s = glm::vec3(0.02F)}};
+    host.vertical_fov = 0.01F;  // a far patch: a step of the eye hardly moves it
+    host.view_depth = [](int, int) { return 40.0F; };
+    const auto picture = [&](glm::vec3 eye) {
+        host.eye = eye;
+        return host.render(s).scattering.pixels[0];
+    };
+    const float here = picture({0, 2, 0});
+    EXPECT_NEAR(picture({0, 2, 1e-3F}), here, 2e-3F * here);
+    EXPECT_GT(here, 0);
+}
+
+TEST_F(VolumetricsParticles, LightIsLinearAndWithoutLightThereIsNone) {
+    host.global = {{.sigma_s = glm::vec3(0.05F), .anisotropy = 0.4F}};
+    host.local = {{.center = {0, 0, -6}, .half_extent = {2, 2, 2}, .sigma_s = glm::vec3(0.3F)}};
+    const Frame dark = host.render(s);
+    sunlight();
+    host.shadows = 1;
+    host.lights = {point_light({1, 1, -5}, 50)};
+    const Frame once = host.render(s);
+    const Frame again = host.render(s);
+    host.sun_illuminance *= 4.0F;
+    host.lights[0].intensity_radius *= glm::vec4(4, 4, 4, 1);
+    const Frame four = host.render(s);
+    for (int i = 0; i < 48 * 32; ++i) {
+        const float value = once.scattering.pixels[4 * i];
+        ASSERT_EQ(dark.scattering.pixels[4 * i], 0);
+        ASSERT_EQ(again.scattering.pixels[4 * i], value);
+        ASSERT_NEAR(four.scattering.pixels[4 * i], 4 * value, 2e-3 * value);
+    }
+}
+
+TEST_F(VolumetricsParticles, FiniteAtTheExtremes) {
+    host.size = {24, 16};
+    host.view_depth = [](int x, int) { return x < 8 ? sky : x < 16 ? 0.11F : 5.0F; };
+    sunlight();
+    host.sun_illuminance = glm::vec3(1e8F);
+    host.ambient = glm::vec3(1e8F);
+    host.lights = {point_light({0, 0, 0}, 1e8F, 100, 0)};
+    s.particle_count = 512;
+    for (const float sigma : {1e-6F, 1e4F})
+        for (const float y : {0.0F, -1e6F}) {
+            host.eye = {0, y, 0};
+            host.global = {{.sigma_s = glm::vec3(sigma), .anisotropy = 0.999F},
+                           {.sigma_s = glm::vec3(sigma, 0, sigma), .height = true, .falloff = 1}};
+            host.local = {
+                {.center = host.eye, .half_extent = {3, 3, 3}, .softness = 1, .sigma_s = glm::vec3(sigma)},
+                {.center = host.eye - glm::vec3(0, 0, 2), .half_extent = {0, 1, 1}, .sigma_a = glm::vec3(sigma)}};
+            const Frame frame = host.render(s);
+            for (const float value : frame.scattering.pixels) ASSERT_TRUE(std::isfinite(value) && value >= 0);
+            for (const float value : frame.transmittance.pixels) ASSERT_TRUE(value >= 0 && value <= 1);
+        }
+}
+
+TEST_F(VolumetricsParticles, PassesWorkAndMemory) {
+    host.count_work = true;
+    sunlight();
+    host.global = {{.sigma_s = glm::vec3(0.1F)}};
+    const Frame frame = host.render(s);
+    EXPECT_THAT(frame.live_passes, ElementsAre("volumetrics/particles_simulate", "volumetrics/particles",
+                                               "volumetrics/particles_resolve"));
+    // Each particle in view is lit once, whatever the size of the picture; out of view none is.
+    const auto lookups = frame.work.at("volumetrics/particles_simulate")[int(gl::Work::shadow_lookups)];
+    EXPECT_GT(lookups, 100U);
+    EXPECT_LT(lookups, 4096U / 3);
+    host.size = {96, 64};
+    EXPECT_EQ(host.render(s).work.at("volumetrics/particles_simulate")[int(gl::Work::shadow_lookups)], lookups);
+    EXPECT_GT(frame.persistent_bytes, 4000U * 48);
+    s.technique = volumetrics::Technique::ray_march;
+    EXPECT_LT(host.render(s).persistent_bytes, 20000U);
+    host.global.clear();
+    EXPECT_EQ(host.render(s).persistent_bytes, 0U);
+}
+
+}  // namespace
+}  // namespace tyndall::test
