@@ -33,12 +33,14 @@ class LightSet {
     [[nodiscard]] std::span<const shared::GpuLight> lights() const { return lights_; }
     /// Scene indices of the lamps whose sphere of influence meets the frustum.
     [[nodiscard]] std::span<const std::size_t> in_view() const { return in_view_; }
+    /// The same as indices of lights().
+    [[nodiscard]] std::span<const std::size_t> indices_in_view() const { return indices_in_view_; }
     [[nodiscard]] GLuint buffer() const { return buffer_.id(); }
 
   private:
     std::vector<shared::GpuLight> lights_;
     std::vector<std::size_t> scene_index_;  ///< of each of lights_
-    std::vector<std::size_t> in_view_;
+    std::vector<std::size_t> in_view_, indices_in_view_;
     gl::Buffer buffer_;
 };
 
