@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "sample_game/ui/curve_editor.h"
+
 namespace tyndall {
 namespace {
 
@@ -94,6 +96,15 @@ void tooltip(const Setting& s) {
     ImGui::EndTooltip();
 }
 
+/// The curve's settings are one drawing, shown while the curve is in use. True for these settings.
+bool curve_row(const SettingsSet::Group& group, const Setting& s) {
+    if (group.table != &volumetrics::settings_table() || !s.key.starts_with("froxel_curve_")) return false;
+    auto& settings = *static_cast<volumetrics::Settings*>(group.object);
+    if (s.key.ends_with("_1") && settings.froxel_distribution == volumetrics::DepthDistribution::curve)
+        curve_editor(settings);
+    return true;
+}
+
 void row(const Setting& s, void* object) {
     double value = s.get(object);
     if (edit(s, value)) s.set(object, value);
@@ -107,7 +118,8 @@ void settings_panel(SettingsSet& settings) {
     for (const SettingsSet::Group& group : settings.groups()) {
         if (!ImGui::CollapsingHeader(group.table->title().c_str(), ImGuiTreeNodeFlags_DefaultOpen)) continue;
         ImGui::PushItemWidth(ImGui::GetContentRegionAvail().x * 0.5f);
-        for (const Setting& s : group.table->settings()) row(s, group.object);
+        for (const Setting& s : group.table->settings())
+            if (!curve_row(group, s)) row(s, group.object);
         ImGui::PopItemWidth();
     }
 }

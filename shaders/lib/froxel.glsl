@@ -15,6 +15,33 @@ const int FROXEL_LOGARITHMIC =
     2;  // view_depth = z_near ((1 + z_far / z_near)^w - 1), from 0 on: w is the logarithm of 1 + view_depth / z_near,
         // slices in proportion to their depth + z_near; z_near > 0 is where they turn from equal to proportional
 
+const int FROXEL_TABLE = 3;  // piecewise linear, from a table: froxel_w_from_table
+
+// A table cuts w into 16 equal segments. Entry [i / 4][i % 4] is the view depth where segment i begins, and its length
+// > 0; a segment begins where the one before it ends. The two functions are each other's inverse. Outside the volume's
+// depths the first and the last segment go on.
+float froxel_w_from_table(float view_depth, mat4 begins, mat4 lengths) {
+    vec4 sum = vec4(0.0f);
+    for (int c = 0; c < 4; ++c) {
+        sum += clamp((vec4(view_depth) - begins[c]) / lengths[c], vec4(0.0f), vec4(1.0f));
+    }
+    float before = min(view_depth - begins[0].x, 0.0f) / lengths[0].x;
+    float behind = max(view_depth - begins[3].w - lengths[3].w, 0.0f) / lengths[3].w;
+    return (dot(sum, vec4(1.0f)) + before + behind) / 16.0f;
+}
+
+float froxel_view_depth_from_table(float w, mat4 begins, mat4 lengths) {
+    float position = 16.0f * w;
+    vec4 sum = vec4(0.0f);
+    for (int c = 0; c < 4; ++c) {
+        vec4 index = vec4(0.0f, 1.0f, 2.0f, 3.0f) + vec4(4.0f * float(c));
+        sum += lengths[c] * clamp(vec4(position) - index, vec4(0.0f), vec4(1.0f));
+    }
+    float before = min(position, 0.0f) * lengths[0].x;
+    float behind = max(position - 16.0f, 0.0f) * lengths[3].w;
+    return begins[0].x + dot(sum, vec4(1.0f)) + before + behind;
+}
+
 // Outside the volume's depths the result lies outside [0,1].
 float froxel_w_from_view_depth(int distribution, float view_depth, float z_near, float z_far) {
     if (distribution == FROXEL_EXPONENTIAL) {

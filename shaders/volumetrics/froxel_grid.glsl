@@ -3,27 +3,10 @@
 #ifndef VOLUMETRICS_FROXEL_GRID_GLSL
 #define VOLUMETRICS_FROXEL_GRID_GLSL
 
-#include "shaders/lib/froxel.glsl"
 #include "shaders/volumetrics/extinction.glsl"
+#include "shaders/volumetrics/froxel_depths.glsl"
 #include "shaders/volumetrics/global_media.glsl"
 #include "shaders/volumetrics/ray.glsl"
-
-float froxel_far() { return volumetrics.froxel_depths.y; }
-
-// View depth where a slice begins; that of slice `count` is the end of the volume.
-float froxel_slice_begin(int slice, int count) {
-    if (slice <= 0) return 0.0;
-    if (slice >= count) return froxel_far();
-    return froxel_view_depth_from_w(int(volumetrics.options.w), float(slice) / float(count),
-                                    volumetrics.froxel_depths.x, volumetrics.froxel_depths.y);
-}
-
-// The slice at a view depth: the first before the volume, the last behind it.
-int froxel_slice(float view_depth, int count) {
-    float w = froxel_w_from_view_depth(int(volumetrics.options.w), min(view_depth, froxel_far()),
-                                       volumetrics.froxel_depths.x, volumetrics.froxel_depths.y);
-    return clamp(int(floor(w * float(count))), 0, count - 1);
-}
 
 // Optical depth of the global media between two distances along a ray.
 Extinction global_optical_depth(Ray ray, float begin, float end) {

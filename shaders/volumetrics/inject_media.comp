@@ -1,9 +1,9 @@
 // Fills the froxel volume with the local media: sums of sigma_s, sigma_t and emission at each froxel's centre. The
 // anisotropy is stored as its product with the mean sigma_s, so that filtering averages it by scattering.
-#include "shaders/lib/froxel.glsl"
 #include "shaders/lib/pack.glsl"
 #include "shaders/lib/work.glsl"
 #include "shaders/volumetrics/data.glsl"
+#include "shaders/volumetrics/froxel_depths.glsl"
 #include "shaders/volumetrics/local_media.glsl"
 #include "shaders/volumetrics/ray.glsl"
 
@@ -32,8 +32,7 @@ void main() {
 
     vec3 uvw = froxel_uvw_from_index(froxel, vec3(0.0), size);
     Ray ray = view_ray(uvw.xy);
-    float view_depth = froxel_view_depth_from_w(int(volumetrics.options.w), uvw.z, volumetrics.froxel_depths.x,
-                                                volumetrics.froxel_depths.y);
+    float view_depth = froxel_view_depth(uvw.z);
     vec3 point = ray.origin + ray.direction * (view_depth / ray.forward_cosine);
 
     vec4 scattering = vec4(0.0);

@@ -1,22 +1,8 @@
 #include "froxel_tiles.h"
 
 #include <algorithm>
-#include <limits>
-
-#include "shaders/lib/glm_subset.h"
-
-TYNDALL_GLSL_BEGIN
-#include "shaders/lib/froxel.glsl"
-TYNDALL_GLSL_END
 
 namespace tyndall::volumetrics {
-namespace {
-
-/// View depths in x (nearest) and y (farthest) of the corners, and their bounds on the screen (0..1).
-struct ViewBounds {
-    float nearest = std::numeric_limits<float>::max(), farthest = std::numeric_limits<float>::lowest();
-    glm::vec2 lower{std::numeric_limits<float>::max()}, upper{std::numeric_limits<float>::lowest()};
-};
 
 ViewBounds view_bounds(const LocalMedium& medium, const Inputs& inputs) {
     const glm::mat3 rotation = glm::mat3_cast(medium.rotation);
@@ -40,32 +26,10 @@ ViewBounds view_bounds(const LocalMedium& medium, const Inputs& inputs) {
     return bounds;
 }
 
-}  // namespace
-
-FroxelGrid froxel_grid(const Inputs& inputs, const Settings& settings) {
-    FroxelGrid grid{.size = {settings.froxels_x, settings.froxels_y, settings.froxels_z},
-                    .distribution = glsl::FROXEL_LINEAR,
-                    .nearest = inputs.znear,
-                    .farthest = settings.froxel_far};
-    if (settings.froxel_distribution == DepthDistribution::exponential) {
-        grid.distribution = glsl::FROXEL_EXPONENTIAL;
-        // Slices in proportion to their depth would crowd at a near plane of centimetres.
-        grid.nearest = std::max(inputs.znear, settings.froxel_far / 256);
-    } else if (settings.froxel_distribution == DepthDistribution::logarithmic) {
-        grid.distribution = glsl::FROXEL_LOGARITHMIC;
-        grid.nearest = settings.froxel_far / 32;
-    }
-    grid.farthest = std::max(settings.froxel_far, 2 * grid.nearest);
-    return grid;
-}
-
 IndexBox froxel_bounds(const LocalMedium& medium, const Inputs& inputs, const FroxelGrid& grid) {
     const ViewBounds bounds = view_bounds(medium, inputs);
     if (bounds.farthest <= 0 || bounds.nearest >= grid.farthest) return {};
-    const auto w = [&](float depth) {
-        return glsl::froxel_w_from_view_depth(grid.distribution, std::max(depth, 0.0F), grid.nearest,
-                                              grid.farthest);
-    };
+    const auto w = [&](float depth) { return grid.w(std::max(depth, 0.0F)); };
     // A froxel centre within half a froxel of the bound is taken too: rounding never loses one. In front of the
     // first slice's centre the march reads the first slice, so a medium there still counts as in it.
     const glm::vec3 size = grid.size;
@@ -83,8 +47,7 @@ glm::vec2 view_depths(std::span<const IndexBox> boxes, const FroxelGrid& grid) {
         last = std::max(last, box.upper.z);
     }
     const auto depth = [&](int slice) {
-        const float w = static_cast<float>(slice) / static_cast<float>(grid.size.z);
-        return glsl::froxel_view_depth_from_w(grid.distribution, w, grid.nearest, grid.farthest);
+        return grid.view_depth(static_cast<float>(slice) / static_cast<float>(grid.size.z));
     };
     return {first == 0 ? 0 : depth(first), depth(last)};
 }

@@ -1,20 +1,22 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
+#include "froxel_grid.h"
 #include "media.h"
 
 namespace tyndall::volumetrics {
 
-/// The froxel volume: size, and the view depths [m] its slices divide (shaders/lib/froxel.glsl).
-struct FroxelGrid {
-    glm::ivec3 size;
-    int distribution;  ///< FROXEL_*
-    float nearest, farthest;
+/// Of a medium's corners: view depths [m] and bounds on the screen (0..1); the whole screen where it reaches behind
+/// the eye.
+struct ViewBounds {
+    float nearest = std::numeric_limits<float>::max(), farthest = std::numeric_limits<float>::lowest();
+    glm::vec2 lower{std::numeric_limits<float>::max()}, upper{std::numeric_limits<float>::lowest()};
 };
-[[nodiscard]] FroxelGrid froxel_grid(const Inputs& inputs, const Settings& settings);
+[[nodiscard]] ViewBounds view_bounds(const LocalMedium& medium, const Inputs& inputs);
 
 /// The froxels whose centres a medium may cover, never too few; empty when it is out of view.
 [[nodiscard]] IndexBox froxel_bounds(const LocalMedium& medium, const Inputs& inputs, const FroxelGrid& grid);

@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
+#include <vector>
 
 #include "shaders/lib/glm_subset.h"
 
@@ -69,8 +71,8 @@ TEST(Froxel, MiddleOfTheRangeIsTheArithmeticOrGeometricMean) {
 }
 
 TEST(Froxel, DepthRoundTripIsMonotone) {
-    for (int distribution : {glsl::FROXEL_LINEAR, glsl::FROXEL_EXPONENTIAL}) {
-        float previous = 0.0f;
+    for (int distribution : {glsl::FROXEL_LINEAR, glsl::FROXEL_EXPONENTIAL, glsl::FROXEL_LOGARITHMIC}) {
+        float previous = -1.0f;
         for (int i = 0; i <= 256; ++i) {
             const float w = static_cast<float>(i) / 256.0f;
             const float z = glsl::froxel_view_depth_from_w(distribution, w, 0.1f, 400.0f);
@@ -106,6 +108,64 @@ TEST(Froxel, CornersOfTheScreen) {
 
 TEST(Froxel, PointsOutsideGetTheNearestIndex) {
     EXPECT_EQ(glsl::froxel_index_from_uvw(glm::vec3(-0.2f, 1.0f, 7.0f), kSize), glm::ivec3(0, 89, 63));
+}
+
+/// A table of 16 segments with the given lengths.
+struct Table {
+    glm::mat4 begins{0.0f}, lengths{0.0f};
+    float end = 0.0f;
+
+    explicit Table(float begin, const std::vector<float>& segments) : end(begin) {
+        for (int i = 0; i < 16; ++i) {
+            begins[i / 4][i % 4] = end;
+            lengths[i / 4][i % 4] = segments[static_cast<std::size_t>(i)];
+            end += segments[static_cast<std::size_t>(i)];
+        }
+    }
+    [[nodiscard]] float w(float depth) const { return glsl::froxel_w_from_table(depth, begins, lengths); }
+    [[nodiscard]] float depth(float w) const { return glsl::froxel_view_depth_from_table(w, begins, lengths); }
+};
+
+TEST(FroxelTable, AnEvenTableIsTheLinearDistribution) {
+    const Table table(2.0f, std::vector<float>(16, 0.5f));
+    for (float w = -0.5f; w <= 1.5f; w += 0.01f) {
+        const float depth = glsl::froxel_view_depth_from_w(glsl::FROXEL_LINEAR, w, 2.0f, 10.0f);
+        EXPECT_NEAR(table.depth(w), depth, 2e-6f);
+        EXPECT_NEAR(table.w(depth), w, 1e-6f);
+    }
+}
+
+TEST(FroxelTable, EachSegmentIsASixteenthOfTheSlices) {
+    std::vector<float> lengths(16);
+    for (std::size_t i = 0; i < 16; ++i) lengths[i] = 0.25f * static_cast<float>(1 + i % 5);
+    const Table table(1.0f, lengths);
+    float begin = 1.0f;
+    for (std::size_t i = 0; i < 16; ++i) {
+        EXPECT_NEAR(table.depth(static_cast<float>(i) / 16.0f), begin, 1e-5f);
+        EXPECT_NEAR(table.depth((static_cast<float>(i) + 0.25f) / 16.0f), begin + 0.25f * lengths[i], 1e-5f);
+        begin += lengths[i];
+    }
+    EXPECT_NEAR(table.depth(1.0f), begin, 1e-5f);
+}
+
+TEST(FroxelTable, RoundTripOfRandomTablesRises) {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<float> exponent(-4.0f, 0.0f), start(0.0f, 30.0f);
+    for (int trial = 0; trial < 300; ++trial) {
+        std::vector<float> lengths(16);
+        float far = 0.0f;
+        for (float& length : lengths) far += length = 100.0f * std::pow(10.0f, exponent(random));
+        const Table table(trial % 2 == 0 ? 0.0f : start(random), lengths);
+        float previous = table.depth(-0.01f);
+        for (int i = 0; i <= 256; ++i) {
+            const float w = static_cast<float>(i) / 256.0f, depth = table.depth(w);
+            ASSERT_GT(depth, previous) << trial << ' ' << i;
+            ASSERT_NEAR(table.depth(table.w(depth)), depth, 1e-6f * (far + depth)) << trial << ' ' << i;
+            previous = depth;
+        }
+        EXPECT_LT(table.w(table.begins[0][0] - 1.0f), 0.0f);
+        EXPECT_GT(table.w(1.001f * table.end + 0.001f), 1.0f);
+    }
 }
 
 }  // namespace

@@ -1,0 +1,28 @@
+#pragma once
+
+#include "shaders/shared/volumetrics.h"
+#include "volumetrics/inputs.h"
+#include "volumetrics/settings.h"
+
+namespace tyndall::volumetrics {
+
+/// The froxel volume: size, and the view depths [m] its slices divide (shaders/lib/froxel.glsl).
+struct FroxelGrid {
+    glm::ivec3 size;
+    int distribution;                    ///< FROXEL_*
+    float nearest, farthest;             ///< view depths
+    glm::mat4 begins{0.0F}, lengths{0};  ///< FROXEL_TABLE: each of 16 shares of the slices
+
+    /// Place in the volume, 0..1, of a view depth [m], and back; outside the volume the result lies outside [0,1].
+    [[nodiscard]] float w(float view_depth) const;
+    [[nodiscard]] float view_depth(float w) const;
+};
+[[nodiscard]] FroxelGrid froxel_grid(const Inputs& inputs, const Settings& settings);
+
+/// View depth at 0, 1/16 … 16/16 of the slices, rising. The least length is kept above what single precision
+/// resolves at the far end, also when it is cut into 16 slices.
+using DepthTable = std::array<float, 17>;
+/// Of the distribution `auto`, see froxel_auto.cpp.
+[[nodiscard]] DepthTable automatic_depths(const Inputs& inputs, const Settings& settings);
+
+}  // namespace tyndall::volumetrics
