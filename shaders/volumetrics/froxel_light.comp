@@ -69,11 +69,13 @@ vec3 beside(Ray ray, vec2 uv) {
     return other.direction * (ray.forward_cosine / other.forward_cosine) - ray.direction;
 }
 
-// Visible share of a light; below 0 where there is none to be seen.
+// Visible share of a light, that of its mean in a channel without any; below 0 where there is none in all.
 vec3 visible_share(vec3 visible, vec3 whole) {
-    const float MOST = 1.0e30;
-    vec3 share = clamp(min(visible, MOST) / clamp(whole, 1.0e-30, MOST), 0.0, 1.0);
-    return mix(share, vec3(-1.0), lessThan(whole, vec3(1.0e-30)));
+    const float LEAST = 1.0e-30;
+    vec4 part = min(vec4(visible, mean_channel(min(visible, 1.0e30))), 1.0e30);
+    vec4 all = min(vec4(whole, mean_channel(min(whole, 1.0e30))), 1.0e30);
+    vec4 share = all.a < LEAST ? vec4(-1.0) : clamp(part / max(all, LEAST), 0.0, 1.0);
+    return mix(share.rgb, share.aaa, lessThan(all.rgb, vec3(LEAST)));
 }
 #endif
 

@@ -1,0 +1,129 @@
+#include "froxel_history.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "froxel_passes.h"
+#include "shaders/shared/bindings.h"
+
+namespace tyndall::volumetrics {
+namespace {
+
+const ProgramDesc program{.name = "volumetrics/froxel_history",
+                          .stages = {{GL_COMPUTE_SHADER, "shaders/volumetrics/froxel_history.comp"}},
+                          .axes = {{"HAS_SUN", {0, 1}}, {"HAS_LAMPS", {0, 1}}, {"COUNT_WORK", {0, 1}}},
+                          .valid = [](const Permutation& p) { return p.at("HAS_SUN") + p.at("HAS_LAMPS") > 0; }};
+const ProgramRegistry::Registration registration(program);
+
+/// Group size of froxel_history.comp.
+constexpr glm::ivec3 group{8, 8, 4};
+
+/// Turn of the sun [rad] after which a mean of its visibility is worth one frame: it moves the shadow of something
+/// 20 m away by 0.2 m, the size of a froxel at 25 m.
+constexpr float sun_turn = 0.01F;
+
+/// R3 sequence (Roberts 2018): multiples of the inverse powers of the root of x^4 = x + 1.
+constexpr glm::dvec3 sequence_step{0.8191725133961645, 0.6710436067037893, 0.5497004779019703};
+
+}  // namespace
+
+bool keeps_history(const Inputs& inputs, const Settings& settings, const FrameMedia& media) {
+    return settings.technique == Technique::froxel && settings.froxel_history > 0 && !media.empty() &&
+           (inputs.has_sun || inputs.has_lamps);
+}
+
+void FroxelHistory::begin_frame(const Inputs& inputs, const Settings& settings, const FrameMedia& media) {
+    const glm::ivec3 size{settings.froxels_x, settings.froxels_y, settings.froxels_z};
+    const gl::TextureDesc desc{.kind = gl::TextureKind::d3, .format = GL_RGBA16, .size = size, .levels = 1};
+    const glm::vec4& depths = media.data.froxel_depths;
+    if (options_.w != media.data.options.w || depths.x != depths_.x || depths.y != depths_.y) {
+        visibility_.invalidate();
+        certainty_.invalidate();
+    }
+    visibility_.begin_frame(desc, "volumetrics froxel visibility");
+    certainty_.begin_frame(desc, "volumetrics froxel certainty");
+    if (!valid()) frame_ = 0;
+    options_ = media.data.options;
+    depths_ = depths;
+    current_ = {inputs.view, inputs.projection, inputs.sun_direction};
+}
+
+void FroxelHistory::end_frame() {
+    visibility_.end_frame();
+    certainty_.end_frame();
+    previous_ = current_;
+    ++frame_;
+}
+
+std::size_t FroxelHistory::bytes() const {
+    return visibility_.current() ? 4 * gl::byte_size(visibility_.current().desc()) : 0;
+}
+
+glm::vec3 FroxelHistory::jitter() const {
+    if (!valid()) return {0.5F, 0.5F, -1};
+    return glm::fract(0.5 + sequence_step * double(frame_));
+}
+
+glm::mat4 FroxelHistory::previous_clip_from_view() const {
+    if (still()) return previous_.projection;
+    return glm::dmat4(previous_.projection) * glm::dmat4(previous_.view) * glm::inverse(glm::dmat4(current_.view));
+}
+
+bool FroxelHistory::still() const {
+    return previous_.view == current_.view && previous_.projection == current_.projection;
+}
+
+float FroxelHistory::sun_frames() const {
+    const float turn = glm::distance(previous_.sun_direction, current_.sun_direction);
+    return sun_turn / std::max(turn, 1e-5F);
+}
+
+TextureRef add_froxel_history(PassList& passes, const PassResources& resources, const Inputs& inputs,
+                              const Settings& settings, TextureRef columns, const FroxelLight& light,
+                              FroxelHistory& history) {
+    const auto import = [&](const gl::Texture& texture, const char* name) {
+        return texture ? passes.import(name, texture) : TextureRef();
+    };
+    const bool valid = history.valid();
+    const TextureRef visibility_before =
+        import(history.visibility().previous(), "volumetrics/froxel_visibility_before");
+    const TextureRef certainty_before =
+        import(history.certainty().previous(), "volumetrics/froxel_certainty_before");
+    TextureRef visibility = import(history.visibility().current(), "volumetrics/froxel_visibility_kept");
+    TextureRef certainty = import(history.certainty().current(), "volumetrics/froxel_certainty_kept");
+    TextureRef radiance = light.radiance;
+    const gl::Program& shader = resources.shaders.get(
+        program, {{"HAS_SUN", inputs.has_sun}, {"HAS_LAMPS", inputs.has_lamps}, {"COUNT_WORK", inputs.count_work}});
+    const glm::ivec3 size{settings.froxels_x, settings.froxels_y, settings.froxels_z};
+    passes.add(
+        "volumetrics/froxel_history",
+        [&](PassBuilder& builder) {
+            for (TextureRef ref :
+                 {columns, light.visibility, light.sun, light.lamps, visibility_before, certainty_before})
+                builder.sample(ref);
+            radiance = builder.storage_read_write(radiance);
+            visibility = builder.storage_write(visibility);
+            certainty = builder.storage_write(certainty);
+        },
+        [=, &shader, &resources, &history, frames = static_cast<float>(settings.froxel_history),
+         groups = glm::uvec3((size + group - 1) / group)](const PassContext& context) {
+            const auto texture = [&](TextureRef ref) { return ref ? context.texture(ref) : gl::TextureView(); };
+            const gl::Sampler& nearest = resources.nearest;
+            const BoundTextures bound{{texture(columns), nearest},           {texture(light.visibility), nearest},
+                                      {texture(light.sun), nearest},         {texture(light.lamps), nearest},
+                                      {texture(visibility_before), nearest}, {texture(certainty_before), nearest}};
+            glBindImageTexture(0, context.texture(radiance).id, 0, GL_TRUE, 0, GL_READ_WRITE, GL_RGBA16F);
+            glBindImageTexture(1, context.texture(visibility).id, 0, GL_TRUE, 0, GL_WRITE_ONLY, GL_RGBA16);
+            glBindImageTexture(2, context.texture(certainty).id, 0, GL_TRUE, 0, GL_WRITE_ONLY, GL_RGBA16);
+            resources.uniforms.bind(GL_UNIFORM_BUFFER, BINDING_VOLUMETRICS);
+            shader.set("history", valid ? history.still() ? 2 : 1 : 0);
+            shader.set("previous_clip_from_view", history.previous_clip_from_view());
+            shader.set("most_frames", glm::vec2(frames, std::min(frames, history.sun_frames())));
+            shader.use();
+            glDispatchCompute(groups.x, groups.y, groups.z);
+            history.end_frame();
+        });
+    return radiance;
+}
+
+}  // namespace tyndall::volumetrics
