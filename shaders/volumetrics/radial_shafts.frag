@@ -59,8 +59,13 @@ Line line_to_sun(vec2 uv) {
     return Line(uv, end, min(min(reach.x, reach.y), 1.0));
 }
 
-bool is_one_surface(float depth_0, float depth_1) {
-    return min(depth_0, depth_1) > 0.8 * max(depth_0, depth_1);
+// Two depths belong to one surface if the nearer is more than this of the farther. A guess: samples are further apart
+// than texels, and surfaces seen at a glancing angle go far in one step.
+const float BETWEEN_TEXELS = 0.8;
+const float BETWEEN_SAMPLES = 0.5;
+
+bool is_one_surface(float depth_0, float depth_1, float ratio) {
+    return min(depth_0, depth_1) > ratio * max(depth_0, depth_1);
 }
 
 // Between texels of one surface interpolated: buffer depth is linear over a plane on screen, which so cannot shadow
@@ -72,7 +77,7 @@ float depth_on_line(Line line, float u) {
     count_work(WORK_TEXTURE_FETCHES, 1u);
     vec4 four = textureGather(depth_texture, (corner + 1.0) * volumetrics.viewport.zw);  // 01, 11, 10, 00
     vec2 low = min(four.xy, four.zw), high = max(four.xy, four.zw);
-    if (is_one_surface(min(low.x, low.y), max(high.x, high.y)))
+    if (is_one_surface(min(low.x, low.y), max(high.x, high.y), BETWEEN_TEXELS))
         return mix(mix(four.w, four.z, f.x), mix(four.x, four.y, f.x), f.y);
     vec2 row = f.y < 0.5 ? four.wz : four.xy;
     return f.x < 0.5 ? row.x : row.y;
@@ -125,7 +130,7 @@ float visibility_on_screen(Ray ray, float depth, float surface) {
         float u = i < samples ? line.reach * (float(i) + offset) / float(samples) : line.reach;
         float here = i < samples ? depth_on_line(line, u) : before;
         float share = share_at(ray, shares, here, u);
-        if (is_one_surface(before, here)) {
+        if (is_one_surface(before, here, BETWEEN_SAMPLES)) {
             shadowed |= parts_between(share_before, share, place);
         } else {
             float middle = 0.5 * (u_before + u);
