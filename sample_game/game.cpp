@@ -26,11 +26,11 @@ constexpr float game_yfov = 1.05f;  // 60 degrees
 constexpr float game_znear = 0.08f;
 constexpr double message_seconds = 2.5, help_seconds = 15;
 constexpr const char* help =
-    "click: look around   WASD: walk   shift: run   space: jump   F: fly   1-6: places\n"
+    "click: look around   WASD: walk   shift: run   space: jump   F: fly   1-7: places\n"
     "T: time of day   G: fog   V: technique   F1: settings   F2: picture   H: hide this\n"
     "Esc: free the pointer, then quit";
 
-const std::array<std::string, 6> places{"LocalPM", "Close", "LocalLights", "Sun", "Depth", "Balance"};
+const std::array<std::string, 7> places{"LocalPM", "Close", "LocalLights", "Sun", "Depth", "Balance", "Glass"};
 
 /// Real seconds since the last call, for what people read; 0 at first.
 class Stopwatch {
@@ -123,7 +123,7 @@ class Game {
             say("fog: " + logic_.fogs()[logic_.fog()].name);
         }
         if (input.pressed(Key::v)) next_technique();
-        for (int i = 0; i < 6; ++i)
+        for (int i = 0; i < 7; ++i)
             if (input.pressed(static_cast<Key>(static_cast<int>(Key::num_1) + i))) go_to(places[i]);
     }
 

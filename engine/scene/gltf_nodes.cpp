@@ -164,6 +164,8 @@ void load_node(const GltfFile& file, const tinygltf::Node& from, int parent,
     const Json extra = file.extras(from);
     if (extra.contains("cast_shadow"))
         node.cast_shadow = file.boolean(extra["cast_shadow"], what + ": extras.cast_shadow");
+    if (extra.contains("draw_distance"))
+        node.draw_distance = file.number(extra["draw_distance"], what + ": extras.draw_distance", 0);
     if (from.skin != -1) file.skip("{}: skins are not supported, drawn in its rest pose", what);
     if (from.camera != -1) node.camera = load_camera(file, from, id, scene, what);
     if (const auto* light = file.extension(from, "KHR_lights_punctual", "light"))

@@ -73,6 +73,7 @@ struct Node {
     std::vector<int> meshes;
     int light = -1, camera = -1;
     bool cast_shadow = true;  ///< extras.cast_shadow
+    float draw_distance = 0;  ///< m, extras.draw_distance: its transparent parts are left out farther away; 0: never
     bool dynamic = false;     ///< it or an ancestor is animated
     glm::mat4 world{1};
 };

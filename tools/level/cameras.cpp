@@ -1,4 +1,4 @@
-// The six places, the path through them, where the player starts, and the fog.
+// The places, the path through them, where the player starts, and the fog.
 #include "tools/level/parts.h"
 #include "tools/level/path.h"
 #include "tools/modeling/media.h"
@@ -23,6 +23,7 @@ std::vector<Place> places() {
         {"Sun", 60.0f, {{-11.0f, -1.3f, 24.4f}, 125.0f, 14.0f}},
         {"Depth", 60.0f, {{-53.8f, -1.25f, 70.3f}, 47.0f, -5.0f}},
         {"Balance", 60.0f, {{-37.4f, -1.25f, 15.2f}, 174.0f, 4.0f}},
+        {"Glass", 58.0f, {{1.9f, -1.35f, 25.9f}, -63.0f, -4.0f}},
     };
 }
 

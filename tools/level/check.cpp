@@ -45,14 +45,14 @@ struct Checker {
                "triangles: " + std::to_string(triangles) + ", allowed " + std::to_string(kTriangleBudget));
         expect(bytes <= kByteBudget,
                "file size: " + std::to_string(bytes) + " bytes, allowed " + std::to_string(kByteBudget));
-        expect(materials.materials.size() <= 24,
-               "materials: " + std::to_string(materials.materials.size()) + ", allowed 24");
+        expect(materials.materials.size() <= 25,
+               "materials: " + std::to_string(materials.materials.size()) + ", allowed 25");
         const size_t lamps = level.lights.size() - 1;
         expect(lamps >= 250 && lamps <= 400, "lamps: " + std::to_string(lamps) + ", expected 250 to 400");
     }
 
     void names() {
-        for (const char* name : {"LocalPM", "Close", "LocalLights", "Sun", "Depth", "Balance", "flythrough"}) {
+        for (const char* name : {"LocalPM", "Close", "LocalLights", "Sun", "Depth", "Balance", "Glass", "flythrough"}) {
             const Node* n = node(name);
             expect(n && n->camera >= 0 && level.cameras[static_cast<size_t>(n->camera)].name == name,
                    std::string("camera missing: ") + name);

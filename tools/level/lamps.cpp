@@ -187,10 +187,10 @@ void candle_stand(Level& level, const Lamps& lamps, vec3 foot, float candela) {
     lamp(level, foot + vec3(0, 1.46f, 0), candela, true);
 }
 
-void brazier(Level& level, const Lamps& lamps, vec3 foot, float candela) {
+void brazier(Level& level, const Lamps& lamps, vec3 foot, float candela, bool shadow) {
     level.add_instance("brazier", lamps.brazier, foot);
     glowing(level, "embers", lamps.embers, foot, 0.0f);
-    lamp(level, foot + vec3(0, 1.12f, 0), candela, true, vec3(1.0f, 0.45f, 0.16f), 0.1f);
+    lamp(level, foot + vec3(0, 1.12f, 0), candela, shadow, vec3(1.0f, 0.45f, 0.16f), 0.1f);
 }
 
 void add_sun(Level& level) {

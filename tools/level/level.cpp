@@ -23,6 +23,7 @@ Level build_level() {
     add_cloister(level, lamps, props);
     add_street(level, lamps, props);
     add_tree(level);
+    add_glasshouse(level, lamps, props);
     add_media(level);
     add_cameras(level);
     return level;

@@ -93,6 +93,16 @@ MaterialSet make_materials() {
     water.base_color = {0.02f, 0.03f, 0.03f, 1.0f};
     water.roughness = 0.06f;
     water.normal = set.image(encode_normal(paint(256, paint_water), "water_normal", Mat::Water.tile_metres, 86));
+    const int ripples = water.normal;
+    Material& glass = set.add("glass");  // old panes: greenish, a little dusty
+    glass.base_color = {0.35f, 0.42f, 0.36f, 0.11f};
+    glass.roughness = 0.08f;
+    glass.blend = glass.double_sided = true;
+    Material& pond = set.add("pond");
+    pond.base_color = {0.02f, 0.045f, 0.04f, 0.6f};
+    pond.roughness = 0.05f;
+    pond.normal = ripples;
+    pond.blend = true;
     return std::move(set.out);
 }
 

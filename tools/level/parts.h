@@ -18,7 +18,7 @@ void wall_lantern(Level& level, const Lamps& lamps, vec3 at, float yaw, float ca
 void post_lantern(Level& level, const Lamps& lamps, vec3 foot, float yaw, float candela);
 void floor_lantern(Level& level, const Lamps& lamps, vec3 foot, float candela, bool shadow = true);
 void candle_stand(Level& level, const Lamps& lamps, vec3 foot, float candela);
-void brazier(Level& level, const Lamps& lamps, vec3 foot, float candela);
+void brazier(Level& level, const Lamps& lamps, vec3 foot, float candela, bool shadow = true);
 
 struct Props {
     int barrel, crate, stall_red, stall_blue, stall_ochre, banner_red, banner_blue, tuft, ivy, block, bench,
@@ -31,6 +31,7 @@ void add_terrain(Level& level);
 void add_abbey(Level& level, const Lamps& lamps, const Props& props);
 void add_abbey_details(Level& level, const Lamps& lamps, const Props& props);
 void add_cloister(Level& level, const Lamps& lamps, const Props& props);
+void add_glasshouse(Level& level, const Lamps& lamps, const Props& props);
 void add_street(Level& level, const Lamps& lamps, const Props& props);
 void add_tree(Level& level);
 void add_media(Level& level);

@@ -114,6 +114,7 @@ struct Writer {
             m.normalTexture.index = from.normal;
             m.doubleSided = from.double_sided;
             if (from.mask) m.alphaMode = "MASK";
+            if (from.blend) m.alphaMode = "BLEND";
             if (from.emissive_strength > 0.0f) {
                 m.emissiveFactor = numbers(from.emissive);
                 if (from.glow_from_albedo) m.emissiveTexture.index = from.albedo;
@@ -191,7 +192,9 @@ struct Writer {
             if (from.light >= 0) {
                 node.extensions["KHR_lights_punctual"] = Value(Object{{"light", Value(from.light)}});
             }
-            if (!from.cast_shadow) node.extras = Value(Object{{"cast_shadow", Value(false)}});
+            nlohmann::json extras = from.extras;
+            if (!from.cast_shadow) extras["cast_shadow"] = false;
+            if (!extras.empty()) node.extras = to_value(extras);
             model.nodes.push_back(node);
         }
         tinygltf::Scene root;

@@ -33,7 +33,7 @@ struct Material {
     glm::vec3 emissive{0.0f};
     float emissive_strength = 0.0f;  // cd/m^2 for emissive 1
     bool glow_from_albedo = false;   // the albedo texture also modulates the emission
-    bool mask = false, double_sided = false;
+    bool mask = false, blend = false, double_sided = false;
 };
 
 struct MaterialSet {

@@ -32,6 +32,7 @@ struct Node {
     float scale = 1.0f;
     int mesh = -1, light = -1, camera = -1, parent = -1;
     bool cast_shadow = true;
+    nlohmann::json extras = nlohmann::json::object();  // besides cast_shadow
 };
 
 struct Channel {

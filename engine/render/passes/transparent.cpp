@@ -65,6 +65,11 @@ shared::Particle pack(const Particle& p) {
             .emission_seed = {p.emission, p.random}};
 }
 
+bool is_near(const FrameContext& frame, int node, glm::vec3 point) {
+    const float farthest = frame.scene.nodes[static_cast<std::size_t>(node)].draw_distance;
+    return farthest <= 0 || glm::distance(point, frame.view.eye) <= farthest;
+}
+
 constexpr float faintest_opacity = 0.002f;
 
 }  // namespace
@@ -78,14 +83,18 @@ bool TransparentPass::gather(const FrameContext& frame) {
     std::vector<Item> items;
     for (std::size_t i = 0; i < frame.gpu.instances().size(); ++i) {
         const Instance& instance = frame.gpu.instances()[i];
-        if (!frame.gpu.material(instance.material).alpha_blend || !frustum.intersects(instance.bounds)) continue;
-        items.push_back(
-            {view_depth(0.5f * (instance.bounds.min + instance.bounds.max)), false, static_cast<std::uint32_t>(i)});
+        const glm::vec3 middle = 0.5f * (instance.bounds.min + instance.bounds.max);
+        if (!frame.gpu.material(instance.material).alpha_blend || !is_near(frame, instance.node, middle) ||
+            !frustum.intersects(instance.bounds))
+            continue;
+        items.push_back({view_depth(middle), false, static_cast<std::uint32_t>(i)});
     }
     std::vector<Particle> particles;
-    for (const ParticleEmitter& emitter : frame.scene.emitters)
-        append_particles(emitter, frame.scene.nodes[static_cast<std::size_t>(emitter.node)].world, frame.time,
-                         particles);
+    for (const ParticleEmitter& emitter : frame.scene.emitters) {
+        const glm::mat4& world = frame.scene.nodes[static_cast<std::size_t>(emitter.node)].world;
+        if (is_near(frame, emitter.node, glm::vec3(world[3])))
+            append_particles(emitter, world, frame.time, particles);
+    }
     for (std::size_t i = 0; i < particles.size(); ++i) {
         const Particle& p = particles[i];
         if (p.opacity < faintest_opacity || !frustum.intersects_sphere(p.position, 1.5f * p.radius)) continue;

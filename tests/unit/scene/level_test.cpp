@@ -18,6 +18,9 @@ TEST(Level, HasTheSixPlacesAndWhatTheyNeed) {
         ASSERT_NE(on_path, path->places.end()) << place;
         EXPECT_LE(on_path->time, path->duration) << place;
     }
+    EXPECT_NE(scene.find_camera("Glass"), nullptr);
+    EXPECT_TRUE(std::ranges::any_of(scene.materials, &Material::alpha_blend)) << "panes and water";
+    EXPECT_FALSE(scene.emitters.empty()) << "smoke";
     EXPECT_TRUE(scene.sun());
     EXPECT_GE(std::ranges::count_if(scene.lights, [](const Light& l) { return l.type != LightType::sun; }), 200);
     EXPECT_FALSE(scene.media.empty());
