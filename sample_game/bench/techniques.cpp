@@ -61,6 +61,13 @@ const std::vector<Family>& families() {
          "particle_count",
          "#2f7f4f",
          Marker::plus},
+        {"shaft geometry",
+         "shaft_geometry",
+         {},
+         {{"shaft_grid", {"64", "128", "256", "512", "1024"}}},
+         "shaft_grid",
+         "#b84a62",
+         Marker::square},
         {"reference", "reference", {}, {}, "", "#009e73", Marker::star, 0, true},
     };
     return list;

@@ -213,6 +213,74 @@ TEST_F(VolumetricsShaftGeometry, OneHeightMediumIsExactAndMixturesAreClose) {
     EXPECT_LE(error().largest, 3e-3);
 }
 
+/// A lamp in a homogeneous medium, and the half x < 0 of the plane z = -6, which shadows it where host.shadows
+/// is 2.
+class VolumetricsShaftLamps : public VolumetricsShaftGeometry {
+  protected:
+    void SetUp() override {
+        VolumetricsShaftGeometry::SetUp();
+        host.has_sun = false;
+        host.shadows = 0;
+        host.eye = {0, 1, 2};
+        host.view_depth = [](int x, int y) { return 6.0F + 0.5F * static_cast<float>(x + y); };
+        host.global = {{.sigma_s = glm::vec3(0.03F), .sigma_a = glm::vec3(0.01F), .anisotropy = 0.2F}};
+    }
+    [[nodiscard]] double lamp_light(int x, int y) const {
+        const shared::GpuLight& light = host.lights[0];
+        const glm::dvec3 eye = host.eye, ray = host.ray(x, y), position(light.position_range),
+                         axis(light.direction_type);
+        const double range = light.position_range.w, sigma_t = 0.04;
+        const auto integrand = [&](double t) {
+            const glm::dvec3 v = eye + ray * t - position;
+            const double d = glm::length(v);
+            if (d >= range) return 0.0;
+            double value = (1 - std::pow(d / range, 4)) / std::max(d * d, 1e-4);
+            const double cone = glm::dot(v, axis) / d * light.cone_shadow.x + light.cone_shadow.y;
+            value *= std::pow(std::clamp(cone, 0.0, 1.0), 2);
+            const double s = (-6 - position.z) / v.z;
+            if (host.shadows == 2 && s > 0 && s < 1 && position.x + s * v.x < 0) return 0.0;
+            return value * light.intensity_radius.r * 0.03 * phase_hg(0.2, -glm::dot(v, ray) / d) *
+                   std::exp(-sigma_t * (t + d));
+        };
+        return integrate_panels(integrand, 0, host.view_depth(x, y) / -ray.z, 200);
+    }
+    [[nodiscard]] double lamp_error() {
+        const Frame frame = host.render(settings);
+        double squares = 0, mean = 0;
+        const double n = host.size.x * host.size.y;
+        for (int y = 0; y < host.size.y; ++y)
+            for (int x = 0; x < host.size.x; ++x) {
+                const double truth = lamp_light(x, y);
+                squares += std::pow(frame.scattering.at(x, host.size.y - 1 - y)[0] - truth, 2) / n;
+                mean += truth / n;
+            }
+        return std::sqrt(squares) / mean;
+    }
+};
+
+TEST_F(VolumetricsShaftLamps, ConesAndSpheresAreClosedForms) {
+    // From beside, towards the eye with the eye in the cone, away from it, and a lamp that shines everywhere.
+    host.lights = {spot_light({-3, 2, -5}, {1, -0.2F, -0.1F}, 1000, 0.95F, 0.8F, 12)};
+    EXPECT_LE(lamp_error(), 0.01);
+    host.lights = {spot_light({0.3F, 1.2F, -6}, {0, 0, 1}, 1000, 0.95F, 0.8F, 20)};
+    EXPECT_LE(lamp_error(), 0.01);
+    host.lights = {spot_light({0.3F, 1.2F, -3}, {0.1F, 0, -1}, 1000, 0.95F, 0.8F, 20)};
+    EXPECT_LE(lamp_error(), 0.01);
+    host.lights = {point_light({1, 2, -6}, 1000, 6)};
+    EXPECT_LE(lamp_error(), 0.01);
+}
+
+TEST_F(VolumetricsShaftLamps, ShadowsConvergeWithTheParts) {
+    host.shadows = 2;
+    host.lights = {point_light({0.5F, 1, -3}, 1000, 30)};
+    settings.shaft_lamp_parts = 2;
+    const double few = lamp_error();
+    settings.shaft_lamp_parts = 16;
+    const double many = lamp_error();
+    EXPECT_LE(many, 0.4 * few);
+    EXPECT_LE(many, 0.03);
+}
+
 TEST_F(VolumetricsShaftGeometry, ExtremesStayFinite) {
     for (const float distance : {1.0F, 1e5F})
         for (const float sigma : {1e-9F, 1e3F})
