@@ -61,8 +61,13 @@ void add_lighting_inputs(volumetrics::Inputs& inputs, const LightSources& source
                          TextureRef depth) {
     inputs.depth = depth;
     for (const std::size_t i : lights.indices_in_view()) {
-        const glm::vec4& sphere = lights.lights()[i].position_range;
-        inputs.lamps.push_back({static_cast<std::uint32_t>(i), glm::vec3(sphere), sphere.w});
+        const shared::GpuLight& light = lights.lights()[i];
+        const bool spot = light.direction_type.w == static_cast<float>(LIGHT_SPOT);
+        inputs.lamps.push_back({.index = static_cast<std::uint32_t>(i),
+                                .position = glm::vec3(light.position_range),
+                                .range = light.position_range.w,
+                                .axis = glm::vec3(light.direction_type),
+                                .cos_outer = spot ? -light.cone_shadow.y / light.cone_shadow.x : -1.0F});
     }
     inputs.light_textures = sources.textures;
     inputs.light_buffers = sources.buffers;

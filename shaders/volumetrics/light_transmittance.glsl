@@ -7,9 +7,9 @@
 #ifndef VOLUMETRICS_LIGHT_TRANSMITTANCE_GLSL
 #define VOLUMETRICS_LIGHT_TRANSMITTANCE_GLSL
 
-#include "shaders/lib/octahedral.glsl"
 #include "shaders/lib/work.glsl"
 #include "shaders/volumetrics/global_media.glsl"
+#include "shaders/volumetrics/light_volume.glsl"
 
 #ifndef LIGHT_VOLUMES
 #define LIGHT_VOLUMES 0
@@ -35,8 +35,11 @@ layout(binding = UNIT_SUN_VOLUME) uniform sampler3D sun_volume;
 #endif
 #if LAMP_VOLUMES
 layout(binding = UNIT_LAMP_VOLUMES) uniform sampler3D lamp_volumes;
-// By light index: xy corner of the lamp's tile in texels, < 0 none; z distance (m) where it begins, w 1 / its length.
-layout(std430, binding = BINDING_LAMP_VOLUMES) readonly buffer LampVolumeBuffer { vec4 lamp_volume[]; };
+struct LampVolume {
+    vec4 tile;    // xy its corner in texels, < 0 none; z distance (m) where it begins, w 1 / its length
+    vec4 window;  // see light_volume.glsl
+};
+layout(std430, binding = BINDING_LAMP_VOLUMES) readonly buffer LampVolumeBuffer { LampVolume lamp_volume[]; };  // by light index
 #endif
 
 // Of the local media between the sun and a point. Clamping of the coordinates is right everywhere: beside the box and
@@ -54,10 +57,11 @@ vec3 local_sun_optical_depth(vec3 point) {
 vec3 local_lamp_optical_depth(uint index, vec3 from_lamp, float path_length) {
 #if LAMP_VOLUMES
     if (index >= uint(lamp_volume.length())) return vec3(0.0);
-    vec4 tile = lamp_volume[index];
+    vec4 tile = lamp_volume[index].tile;
     if (tile.x < 0.0 || path_length <= tile.z) return vec3(0.0);
     vec4 sizes = volumetrics.lamp_volumes;
-    vec2 texel = tile.xy + octahedral_encode(from_lamp) * sizes.x;
+    vec2 place = lamp_tile_place(from_lamp, lamp_volume[index].window);
+    vec2 texel = tile.xy + clamp(place * sizes.x, -0.5, sizes.x + 0.5);
     float share = min((path_length - tile.z) * tile.w, 1.0);
     float w = (share * (sizes.y - 1.0) + 0.5) / sizes.y;
     count_work(WORK_TEXTURE_FETCHES, 1u);

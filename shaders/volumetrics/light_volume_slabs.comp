@@ -1,8 +1,8 @@
 // First step of a light volume: the optical depth of the local media in each slab between two texels along a light's ray.
 // Texel k = 0 is where the rays begin and holds 0. light_volume_sum.comp adds the slabs up.
-#include "shaders/lib/octahedral.glsl"
 #include "shaders/lib/pack.glsl"
 #include "shaders/lib/work.glsl"
+#include "shaders/volumetrics/light_volume.glsl"
 #include "shaders/volumetrics/local_media.glsl"
 
 layout(local_size_x = 8, local_size_y = 8, local_size_z = 4) in;
@@ -18,6 +18,7 @@ uniform ivec3 size;
 uniform uint media_count;
 #if LAMP
 uniform vec3 lamp_position;
+uniform vec4 lamp_window;  // see light_volume.glsl
 uniform vec2 lamp_span;  // m from the lamp: first and last texel
 #else
 uniform mat4 volume_to_world;  // from texture coordinates
@@ -51,15 +52,6 @@ vec3 slab_optical_depth(vec3 from, vec3 direction, float path_length) {
     return depth;
 }
 
-#if LAMP
-// An octahedral map goes on over an edge of its square with the point mirrored on that edge's middle.
-vec2 wrapped(vec2 e) {
-    if (e.x < 0.0 || e.x > 1.0) e = vec2(e.x < 0.0 ? -e.x : 2.0 - e.x, 1.0 - e.y);
-    if (e.y < 0.0 || e.y > 1.0) e = vec2(1.0 - e.x, e.y < 0.0 ? -e.y : 2.0 - e.y);
-    return e;
-}
-#endif
-
 void main() {
     ivec3 texel = ivec3(gl_GlobalInvocationID);
     if (any(greaterThanEqual(texel, size))) return;
@@ -67,8 +59,7 @@ void main() {
     if (texel.z > 0) {
 #if LAMP
         // One texel of border all round.
-        vec2 e = (vec2(texel.xy) - 0.5) / vec2(size.xy - 2);
-        vec3 direction = octahedral_decode(wrapped(e));
+        vec3 direction = lamp_tile_direction((vec2(texel.xy) - 0.5) / vec2(size.xy - 2), lamp_window);
         float path_length = (lamp_span.y - lamp_span.x) / float(size.z - 1);
         vec3 from = lamp_position + direction * (lamp_span.x + path_length * float(texel.z - 1));
 #else

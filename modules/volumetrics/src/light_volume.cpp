@@ -63,6 +63,7 @@ void fill_light_volume(ShaderLibrary& shaders, bool count_work, const gl::Textur
         slabs.set("media_count", static_cast<unsigned>(media_count));
         if (r.of_lamp()) {
             slabs.set("lamp_position", r.lamp);
+            slabs.set("lamp_window", r.window);
             slabs.set("lamp_span", glm::vec2(r.begin, r.end));
         } else {
             slabs.set("volume_to_world", r.volume_to_world);

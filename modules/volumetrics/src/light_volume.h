@@ -22,6 +22,7 @@ struct LightRays {
     glm::ivec3 origin{0}, size{0};  ///< texels
     glm::mat4 volume_to_world{1};   ///< sun: from texture coordinates
     glm::vec3 lamp{0};              ///< m
+    glm::vec4 window{0};            ///< lamp: see shaders/volumetrics/light_volume.glsl
     float begin = 0, end = 0;       ///< lamp: distances (m) of the first and the last texel; both 0 for the sun
     [[nodiscard]] bool of_lamp() const { return end > 0; }
 };
@@ -49,9 +50,10 @@ class SunVolume {
     bool stale_ = true;
 };
 
-/// The volumes of lamps, tiles of one atlas: octahedral directions with a border of one texel, times distances from
-/// the nearest to the farthest local medium in range. Each is kept until its lamp or those media change. Where
-/// lamps are more than the setting lamp_volume_count, those whose range ends nearest to the eye come first.
+/// The volumes of lamps, tiles of one atlas: directions, all or those towards the local media in range, with a
+/// border of one texel, times distances from the nearest to the farthest of these media. Each is kept until its
+/// lamp or those media change. Where lamps are more than the setting lamp_volume_count, those whose range ends
+/// nearest to the eye come first.
 class LampVolumes {
   public:
     void prepare(const Inputs& inputs, const Settings& settings, FrameMedia& media);
@@ -75,7 +77,7 @@ class LampVolumes {
     gl::Texture texture_;
     gl::Buffer table_;
     std::vector<Slot> slots_;
-    std::vector<glm::vec4> entries_;
+    std::vector<glm::vec4> entries_;  ///< of the table, two for each light
     std::size_t left_out_ = 0;
 };
 

@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstddef>
+#include <glm/gtc/constants.hpp>
 #include <limits>
 
 #include "light_volume.h"
@@ -24,6 +26,44 @@ class Hash {
     std::uint64_t state_ = 0xcbf29ce484222325U;
 };
 
+/// Directions round an axis.
+struct Cone {
+    glm::vec3 axis{0};
+    float angle = glm::pi<float>();  ///< half the opening
+
+    /// The directions of this or the other, round the axis of this.
+    void add(const Cone& other) {
+        const float between = std::acos(std::clamp(glm::dot(axis, other.axis), -1.0F, 1.0F));
+        angle = std::min(std::max(angle, between + other.angle), glm::pi<float>());
+    }
+};
+
+Cone cone_of(const LocalMedium& medium, glm::vec3 lamp) {
+    const glm::vec3& half = medium.half_extent;
+    const float radius = medium.box ? glm::length(half) : std::max({half.x, half.y, half.z});
+    const glm::vec3 to = medium.center - lamp;
+    const float distance = glm::length(to);
+    return distance <= radius ? Cone() : Cone{to / distance, std::asin(radius / distance)};
+}
+
+/// In perspective where that is finer than the octahedral map: up to a tangent of 1.5. The window is a texel wider
+/// than the cone on each side.
+glm::vec4 window_round(const Cone& cone, int directions) {
+    if (cone.angle > 1.5F) return glm::vec4(0);
+    const float tangent = std::max(std::tan(cone.angle), 1e-3F) * (1 + 2 / static_cast<float>(directions));
+    return tangent > 1.5F ? glm::vec4(0) : glm::vec4(cone.axis, 1 / tangent);
+}
+
+/// Of the directions that a lamp shines in and those of the media, whichever are fewer.
+glm::vec4 window_of(const Lamp& lamp, const std::vector<Cone>& media, int directions) {
+    glm::vec3 sum(0);
+    for (const Cone& cone : media) sum += cone.axis;
+    Cone all{.axis = glm::length(sum) > 1e-3F ? glm::normalize(sum) : glm::vec3(0, 1, 0), .angle = 0};
+    for (const Cone& cone : media) all.add(cone);
+    const Cone lit{lamp.axis, std::acos(std::clamp(lamp.cos_outer, -1.0F, 1.0F))};
+    return window_round(lit.angle < all.angle ? lit : all, directions);
+}
+
 /// Nearest and farthest distance (m) from a point of the box round a medium.
 glm::vec2 distances(const LocalMedium& medium, glm::vec3 point) {
     const glm::vec3 p = glm::abs(glm::conjugate(medium.rotation) * (point - medium.center));
@@ -35,6 +75,7 @@ glm::vec2 distances(const LocalMedium& medium, glm::vec3 point) {
 struct LampVolumes::Wanted {
     Lamp lamp;
     float begin = std::numeric_limits<float>::max(), end = 0;  ///< m from it, where there are media
+    glm::vec4 window{0};
     std::uint64_t key = 0;
     float eye_distance = 0;  ///< m from the eye to where its range ends; negative inside
 };
@@ -62,6 +103,7 @@ LampVolumes::Slot& LampVolumes::slot_for(const Wanted& wanted) {
     Slot& slot = *std::ranges::find(slots_, false, &Slot::used);
     slot.key = wanted.key;
     slot.rays.lamp = wanted.lamp.position;
+    slot.rays.window = wanted.window;
     slot.rays.begin = wanted.begin;
     slot.rays.end = wanted.end;
     slot.stale = true;
@@ -75,14 +117,18 @@ void LampVolumes::prepare(const Inputs& inputs, const Settings& settings, FrameM
         Wanted wanted{.lamp = lamp};
         Hash hash;
         hash.add(lamp.position);
-        hash.add(range);
+        std::vector<Cone> cones;
         for (const AttenuatingMedium& medium : media.attenuating) {
             const glm::vec2 at = distances(medium.medium, lamp.position);
             if (at.x >= range) continue;
             wanted.begin = std::min(wanted.begin, at.x);
             wanted.end = std::max(wanted.end, std::min(at.y, range));
+            cones.push_back(cone_of(medium.medium, lamp.position));
             hash.add(medium.packed);
         }
+        wanted.window = window_of(lamp, cones, settings.lamp_volume_size);
+        hash.add(wanted.end);
+        hash.add(wanted.window);
         wanted.key = hash.value();
         wanted.eye_distance = glm::distance(inputs.eye, lamp.position) - range;
         if (wanted.end > wanted.begin) all.push_back(wanted);
@@ -95,13 +141,14 @@ void LampVolumes::prepare(const Inputs& inputs, const Settings& settings, FrameM
     allocate(all.size(), settings.lamp_volume_size, media.chromatic);
 
     for (Slot& slot : slots_) slot.used = std::ranges::find(all, slot.key, &Wanted::key) != all.end();
-    std::vector<glm::vec4> entries(
-        1 + std::ranges::max(all, {}, [](const Wanted& w) { return w.lamp.index; }).lamp.index, glm::vec4(-1));
+    const auto last = std::ranges::max(all, {}, [](const Wanted& w) { return w.lamp.index; }).lamp.index;
+    std::vector<glm::vec4> entries(2 * (std::size_t{last} + 1), glm::vec4(-1));
     for (const Wanted& wanted : all) {
         Slot& slot = slot_for(wanted);
         slot.used = true;
-        entries[wanted.lamp.index] = {slot.rays.origin.x + border, slot.rays.origin.y + border, wanted.begin,
-                                      1 / (wanted.end - wanted.begin)};
+        entries[2 * wanted.lamp.index] = {slot.rays.origin.x + border, slot.rays.origin.y + border, wanted.begin,
+                                          1 / (wanted.end - wanted.begin)};
+        entries[2 * wanted.lamp.index + 1] = slot.rays.window;
     }
     // The buffer never shrinks: what the shaders see of it must not be of an earlier frame.
     if (entries.size() < entries_.size()) entries.resize(entries_.size(), glm::vec4(-1));

@@ -151,9 +151,15 @@ Inputs StubHost::inputs(PassList& passes) {
     in.has_sun = has_sun;
     in.sun_direction = sun_direction;
     in.has_lamps = !lights.empty();
-    for (std::size_t i = 0; i < lights.size(); ++i)
-        in.lamps.push_back({static_cast<std::uint32_t>(i), glm::vec3(lights[i].position_range),
-                            lights[i].position_range.w});
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+        const shared::GpuLight& light = lights[i];
+        const bool spot = light.direction_type.w == LIGHT_SPOT;
+        in.lamps.push_back({.index = static_cast<std::uint32_t>(i),
+                            .position = light.position_range,
+                            .range = light.position_range.w,
+                            .axis = light.direction_type,
+                            .cos_outer = spot ? -light.cone_shadow.y / light.cone_shadow.x : -1.0F});
+    }
     in.has_ambient = ambient != glm::vec3(0);
     in.bind_lighting = [this] {
         uniforms_.bind(GL_UNIFORM_BUFFER, BINDING_FRAME);

@@ -41,6 +41,8 @@ struct Lamp {
     std::uint32_t index = 0;
     glm::vec3 position{0};  ///< m
     float range = 0;        ///< m; 0: none
+    glm::vec3 axis{0};      ///< unit, of a spot's cone
+    float cos_outer = -1;   ///< of its half angle; -1: a point lamp
 };
 
 /// What the host gives each frame. All textures are borrowed.

@@ -51,13 +51,13 @@ struct Settings {
     bool froxel_jitter = false;
     int froxel_history = 0;
     int sun_volume_size = 128;
-    int lamp_volume_size = 16;
+    int lamp_volume_size = 24;
     int lamp_volume_count = 256;
     int billboard_layers = 24;
-    int billboard_local_layers = 8;
+    int billboard_local_layers = 16;
     float billboard_fade = 0.5f;
     int particle_count = 65536;
-    int particle_local_count = 4096;
+    int particle_local_count = 32768;
     float particle_distance = 64;
     float particle_size = 1;
     float particle_drift = 0.1f;
