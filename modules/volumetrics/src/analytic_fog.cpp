@@ -9,9 +9,8 @@ const ProgramDesc program{.name = "volumetrics/analytic_fog",
                           .axes = {{"HEIGHT_MEDIA", {0, 1, MAX_HEIGHT_MEDIA}},
                                    {"HAS_SUN", {0, 1}},
                                    {"CHROMATIC", {0, 1}},
-                                   {"RAYLEIGH", {0, 1}},
                                    {"COUNT_WORK", {0, 1}}},
-                          .valid = is_rayleigh_permutation};
+                          .valid = {}};
 const ProgramRegistry::Registration registration(program);
 
 }  // namespace
@@ -21,7 +20,8 @@ Outputs add_analytic_fog(PassList& passes, PassResources& resources, const Input
     Permutation permutation = fog_permutation(inputs, media);
     permutation["HAS_SUN"] = inputs.has_sun;
     const gl::Program& shader = resources.shaders.get(program, permutation);
-    return add_fog_pass(passes, resources, inputs, media, "volumetrics/analytic_fog", shader);
+    return add_fog_pass(passes, resources, inputs,
+                        {"volumetrics/analytic_fog", shader, {}, fog_targets(passes, inputs, media)});
 }
 
 }  // namespace tyndall::volumetrics

@@ -4,10 +4,19 @@
 
 namespace tyndall::volumetrics {
 
-/// A full-screen pass that computes a technique's outputs from nothing but depth, sun, ambient light and the global
-/// media. `shader` has the depth at unit 0, and the dither tile.
+/// A full-screen pass that reads nothing but depth (unit 0), the dither tile, sun, ambient light, the global media
+/// and `visibility` (unit 1), if there is one. `targets` are what it draws to.
+struct FogPass {
+    const char* name;
+    const gl::Program& shader;
+    TextureRef visibility = {};
+    Outputs targets = {};
+};
 [[nodiscard]] Outputs add_fog_pass(PassList& passes, const PassResources& resources, const Inputs& inputs,
-                                   const FrameMedia& media, const char* name, const gl::Program& shader);
+                                   const FogPass& pass);
+
+/// New targets for scattering and, where extinction is coloured, transmittance.
+[[nodiscard]] Outputs fog_targets(PassList& passes, const Inputs& inputs, const FrameMedia& media);
 
 /// The axes HEIGHT_MEDIA, CHROMATIC, RAYLEIGH and COUNT_WORK.
 [[nodiscard]] Permutation fog_permutation(const Inputs& inputs, const FrameMedia& media);

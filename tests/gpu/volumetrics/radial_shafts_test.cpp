@@ -241,14 +241,28 @@ TEST_F(RadialShafts, WorkIsThatOfItsSamplesAndNoneWithTheSunBehind) {
     Settings s = settings(RadialOcclusion::coverage);
     s.radial_samples = 20;
     put_sun(0.1F, 0.1F);
-    EXPECT_EQ(host.render(s).work.at("volumetrics/radial_shafts")[int(gl::Work::texture_fetches)], 64U * 21);
+    EXPECT_EQ(host.render(s).work.at("volumetrics/radial_visibility")[int(gl::Work::texture_fetches)], 64U * 21);
     put_sun(0.1F, 0.1F, -1);
-    const gl::WorkCounts work = host.render(s).work.at("volumetrics/radial_shafts");
+    const gl::WorkCounts work = host.render(s).work.at("volumetrics/radial_visibility");
     EXPECT_EQ(work[int(gl::Work::texture_fetches)], 64U);
     EXPECT_EQ(work[int(gl::Work::shadow_lookups)], 0U);
+    EXPECT_THAT(host.render(s).live_passes,
+                ElementsAre("volumetrics/radial_visibility", "volumetrics/radial_shafts"));
+}
+
+TEST_F(RadialShafts, BlurTakesTheNoiseOfTheDitherAndLeavesTheFog) {
+    host.size = {32, 32};
+    host.eye = {0, 2, 0};
+    host.global = {{.sigma_s = glm::vec3(0.2F), .height = true, .falloff = 0.5F}};
+    host.view_depth = [](int, int) { return sky; };
+    put_sun(0.2F, 0.9F);
+    Settings s = settings(RadialOcclusion::intervals);
     s.blur = volumetrics::Blur::bilateral;
-    EXPECT_THAT(host.render(s).live_passes, ElementsAre("volumetrics/radial_shafts", "volumetrics/blur_horizontal",
-                                                        "volumetrics/blur_vertical"));
+    const Frame frame = host.render(s);
+    EXPECT_THAT(frame.live_passes, ElementsAre("volumetrics/radial_visibility", "volumetrics/blur_horizontal",
+                                               "volumetrics/blur_vertical", "volumetrics/radial_shafts"));
+    // The fog's edge at the horizon stays as sharp as it is.
+    EXPECT_EQ(frame.scattering.pixels, fog().scattering.pixels);
 }
 
 TEST_F(RadialShafts, ExtremesStayFiniteAndBounded) {
