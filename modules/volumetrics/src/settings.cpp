@@ -215,7 +215,7 @@ const SettingsTable& settings_table() {
                      {"shaft_grid", "Shaft grid",
                       "Technique shaft_geometry: cells per side of the sun's mesh; edges of shafts are as fine as a "
                       "cell, time grows with the square."},
-                     16, 2048, Effect::resource, Scale::logarithmic)
+                     16, 1024, Effect::resource, Scale::logarithmic)
             .integer(&S::shaft_segments,
                      {"shaft_segments", "Shaft segments",
                       "Technique shaft_geometry: closed forms per ray in a mixture of media; one homogeneous or "

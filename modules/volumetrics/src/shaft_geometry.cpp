@@ -58,7 +58,7 @@ glm::vec4 ray_cuts(const FrameMedia& media, const Settings& settings) {
     if (heights == 0 || (heights == 1 && !constant)) return {1, 0, 0, 2 * farthest};
     float falloff = farthest;
     for (unsigned i = 0; i < heights; ++i) falloff = std::min(falloff, media.data.height[i].sigma_t_falloff.w);
-    const float first = 0.5F * falloff;
+    const float first = std::max(0.5F * falloff, 1e-3F);
     const float end = clearest > opaque / farthest ? opaque / clearest : farthest;
     const auto count = static_cast<float>(settings.shaft_segments);
     return {count, first, std::log1p(end / first) / count, end};

@@ -291,8 +291,9 @@ TEST_F(VolumetricsShaftGeometry, ExtremesStayFinite) {
                 host.sun_direction = glm::normalize(sun);
                 host.sun_illuminance = glm::vec3(1e6F);
                 host.eye = {1e5F, 3, -1e5F};
-                host.global = {{.sigma_s = glm::vec3(sigma, 2 * sigma, sigma)},
-                               {.sigma_s = glm::vec3(sigma), .height = true, .base = -100, .falloff = 0.5F}};
+                host.global = {
+                    {.sigma_s = glm::vec3(sigma, 2 * sigma, sigma)},
+                    {.sigma_s = glm::vec3(sigma), .height = true, .base = -100, .falloff = distance * sigma}};
                 const Frame frame = host.render(settings);
                 for (int y = 0; y < host.size.y; ++y)
                     for (int x = 0; x < host.size.x; ++x)
