@@ -3,6 +3,20 @@
 #include <cmath>
 
 namespace tyndall {
+namespace {
+
+/// Of molecules, by Rayleigh's law, at 680, 550 and 440 nm (Bruneton and Neyret 2008), thinning by e in 8 km.
+Medium clear_air(float scale) {
+    Medium air;
+    air.shape = Medium::Shape::height;
+    air.sigma_s = scale * glm::vec3(5.8e-6f, 13.5e-6f, 33.1e-6f);
+    air.rayleigh = true;
+    air.height_profile = true;
+    air.falloff = 8000 / scale;
+    return air;
+}
+
+}  // namespace
 
 LevelLogic::LevelLogic(const Scene& scene) : media_(scene.media), exposure_(scene.exposure_ev100) {
     const auto sun = scene.sun();
@@ -17,7 +31,12 @@ LevelLogic::LevelLogic(const Scene& scene) : media_(scene.media), exposure_(scen
     } else {
         day_times_ = {{"as made", 0, 0, glm::vec3(1), 0, exposure_}};
     }
-    fogs_ = {{"as made", 1.0f}, {"none", 0.0f}, {"thin", 0.35f}, {"thick", 2.5f}};
+    fogs_ = {{"as made", 1.0f},
+             {"none", 0.0f},
+             {"thin", 0.35f},
+             {"thick", 2.5f},
+             // A level is a few hundred metres wide: as if it were kilometres.
+             {"blue air", 0.0f, 50}};
 }
 
 void LevelLogic::set_day_time(Scene& scene, std::size_t index) {
@@ -46,13 +65,13 @@ void LevelLogic::set_fog(Scene& scene, std::size_t index) {
     fog_ = index;
     const float factor = fogs_[index].factor;
     scene.media.clear();
-    if (factor == 0) return;
-    scene.media = media_;
+    if (factor > 0) scene.media = media_;
     for (Medium& medium : scene.media) {
         medium.sigma_s *= factor;
         medium.sigma_a *= factor;
         medium.emission *= factor;
     }
+    if (fogs_[index].air > 0) scene.media.push_back(clear_air(fogs_[index].air));
 }
 
 }  // namespace tyndall

@@ -20,7 +20,8 @@ struct DayTime {
 /// How much of the level's own fog there is, and what is added.
 struct FogPreset {
     std::string name;
-    float factor;  ///< on all coefficients of the level's media; 0 removes them
+    float factor;   ///< on all coefficients of the level's media; 0 removes them
+    float air = 0;  ///< 0: none; else clear air, of a world that is so many times larger
 };
 
 /// Changes a level's sun and media, always starting from how it was loaded.

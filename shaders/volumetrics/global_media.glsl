@@ -9,9 +9,14 @@
 #ifndef HEIGHT_MEDIA
 #define HEIGHT_MEDIA MAX_HEIGHT_MEDIA
 #endif
-// RAYLEIGH 0: no medium has Rayleigh's phase function, or nothing asks for it.
+// RAYLEIGH 0: no medium has Rayleigh's phase function, as none may where extinction is not coloured; it is no axis of its
+// own, for it saves next to nothing.
 #ifndef RAYLEIGH
+#ifdef CHROMATIC
+#define RAYLEIGH CHROMATIC
+#else
 #define RAYLEIGH 1
+#endif
 #endif
 #define HEIGHT_COUNT (HEIGHT_MEDIA == 1 ? 1u : volumetrics.counts.x)
 

@@ -14,9 +14,8 @@ const ProgramDesc program{.name = "volumetrics/froxel_apply",
                                    {"LOCAL_MEDIA", {0, 1}},
                                    {"HAS_SUN", {0, 1}},
                                    {"CHROMATIC", {0, 1}},
-                                   {"RAYLEIGH", {0, 1}},
                                    {"COUNT_WORK", {0, 1}}},
-                          .valid = is_rayleigh_permutation};
+                          .valid = {}};
 const ProgramRegistry::Registration registration(program);
 
 }  // namespace
@@ -44,7 +43,6 @@ Outputs add_froxel_apply(PassList& passes, const PassResources& resources, const
                                                                 {"LOCAL_MEDIA", !media.local.empty()},
                                                                 {"HAS_SUN", inputs.has_sun},
                                                                 {"CHROMATIC", media.chromatic},
-                                                                {"RAYLEIGH", rayleigh_axis(media, inputs.has_sun)},
                                                                 {"COUNT_WORK", inputs.count_work}});
     // Behind the end of the froxels there are sun and ambient light, but neither lamps nor shadows.
     const bool lit = inputs.has_sun || inputs.has_ambient;

@@ -6,7 +6,7 @@ namespace tyndall::volumetrics {
 namespace {
 
 bool is_permutation(const Permutation& p) {
-    return is_rayleigh_permutation(p) && is_light_volume_permutation(p) &&
+    return is_light_volume_permutation(p) &&
            (p.at("FROXEL_HISTORY") == 0 || p.at("HAS_SUN") + p.at("LAMPS") > 0);
 }
 
@@ -17,7 +17,6 @@ const ProgramDesc program{.name = "volumetrics/froxel_light",
                                    {"HAS_SUN", {0, 1}},
                                    {"LAMPS", {0, 1, 2}},  // 1 + LampIntegration
                                    {"CHROMATIC", {0, 1}},
-                                   {"RAYLEIGH", {0, 1}},
                                    {"FROXEL_HISTORY", {0, 1}},
                                    {"LIGHT_VOLUMES", {0, 1, 2, 3}},
                                    {"COUNT_WORK", {0, 1}}},
@@ -49,7 +48,6 @@ FroxelLight add_froxel_light(PassList& passes, const PassResources& resources, c
                                         {"HAS_SUN", inputs.has_sun},
                                         {"LAMPS", inputs.has_lamps ? lamps : 0},
                                         {"CHROMATIC", media.chromatic},
-                                        {"RAYLEIGH", rayleigh_axis(media, inputs.has_sun || inputs.has_lamps)},
                                         {"FROXEL_HISTORY", history != nullptr},
                                         {"LIGHT_VOLUMES", resources.light_volumes.axis()},
                                         {"COUNT_WORK", inputs.count_work}});

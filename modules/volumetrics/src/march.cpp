@@ -14,12 +14,9 @@ const ProgramDesc program{.name = "volumetrics/march",
                                    {"HAS_SUN", {0, 1}},
                                    {"LAMPS", {0, 1, 2}},  // 1 + LampIntegration
                                    {"CHROMATIC", {0, 1}},
-                                   {"RAYLEIGH", {0, 1}},
                                    {"LIGHT_VOLUMES", {0, 1, 2, 3}},
                                    {"COUNT_WORK", {0, 1}}},
-                          .valid = [](const Permutation& p) {
-                              return is_rayleigh_permutation(p) && is_light_volume_permutation(p);
-                          }};
+                          .valid = is_light_volume_permutation};
 const ProgramRegistry::Registration registration(program);
 
 Permutation permutation(const Inputs& inputs, const Settings& settings, const FrameMedia& media,
@@ -31,7 +28,6 @@ Permutation permutation(const Inputs& inputs, const Settings& settings, const Fr
             {"HAS_SUN", inputs.has_sun},
             {"LAMPS", inputs.has_lamps ? lamps : 0},
             {"CHROMATIC", media.chromatic},
-            {"RAYLEIGH", rayleigh_axis(media, inputs.has_sun || inputs.has_lamps)},
             {"LIGHT_VOLUMES", volumes.axis()},
             {"COUNT_WORK", inputs.count_work}};
 }

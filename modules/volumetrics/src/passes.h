@@ -11,6 +11,7 @@ namespace tyndall::volumetrics {
 
 /// Froxel volumes of the local media: RGBA16F 3D textures, see shaders/volumetrics/inject_media.comp.
 struct FroxelMedia {
+    TextureRef columns;  ///< farthest view depth of each column, see froxel_columns.frag: nothing is injected behind it
     TextureRef scattering, extinction, emission;  ///< emission only where some local medium emits
 };
 
@@ -47,12 +48,8 @@ struct PassResources {
                                        const Settings& settings, const FrameMedia& media);
 [[nodiscard]] Outputs add_radial_shafts(PassList& passes, PassResources& resources, const Inputs& inputs,
                                         const Settings& settings, const FrameMedia& media);
-/// Values of the axes HEIGHT_MEDIA and RAYLEIGH. `lit`: by a sun or lamps, for which alone a phase matters.
+/// Value of the axis HEIGHT_MEDIA.
 [[nodiscard]] int height_media_axis(const FrameMedia& media);
-[[nodiscard]] int rayleigh_axis(const FrameMedia& media, bool lit);
-/// Of a program with the axis RAYLEIGH: whether the two functions above, FrameMedia::chromatic and the lights can
-/// give this combination.
-[[nodiscard]] bool is_rayleigh_permutation(const Permutation& permutation);
 
 /// Brute force in RGBA32F; `transmittance` is always given.
 [[nodiscard]] Outputs add_reference(PassList& passes, PassResources& resources, const Inputs& inputs,

@@ -7,19 +7,15 @@ namespace tyndall::volumetrics {
 namespace {
 
 const PermutationAxis height_media{"HEIGHT_MEDIA", {0, 1, MAX_HEIGHT_MEDIA}};
-const ProgramDesc media_program{.name = "volumetrics/reference_media",
-                                .stages = {{GL_COMPUTE_SHADER, "shaders/volumetrics/reference_media.comp"}},
-                                .axes = {height_media,
-                                         {"LOCAL_MEDIA", {0, 1}},
-                                         {"HAS_SUN", {0, 1}},
-                                         {"RAYLEIGH", {0, 1}},
-                                         {"COUNT_WORK", {0, 1}}},
-                                .valid = is_rayleigh_permutation};
-const ProgramDesc lamp_program{
-    .name = "volumetrics/reference_lamps",
-    .stages = {{GL_COMPUTE_SHADER, "shaders/volumetrics/reference_lamps.comp"}},
-    .axes = {height_media, {"LOCAL_MEDIA", {0, 1}}, {"RAYLEIGH", {0, 1}}, {"COUNT_WORK", {0, 1}}},
-    .valid = is_rayleigh_permutation};
+const ProgramDesc media_program{
+    .name = "volumetrics/reference_media",
+    .stages = {{GL_COMPUTE_SHADER, "shaders/volumetrics/reference_media.comp"}},
+    .axes = {height_media, {"LOCAL_MEDIA", {0, 1}}, {"HAS_SUN", {0, 1}}, {"COUNT_WORK", {0, 1}}},
+    .valid = {}};
+const ProgramDesc lamp_program{.name = "volumetrics/reference_lamps",
+                               .stages = {{GL_COMPUTE_SHADER, "shaders/volumetrics/reference_lamps.comp"}},
+                               .axes = {height_media, {"LOCAL_MEDIA", {0, 1}}, {"COUNT_WORK", {0, 1}}},
+                               .valid = {}};
 const ProgramRegistry::Registration media_registration(media_program), lamp_registration(lamp_program);
 
 /// MAX_STEP_COUNT of reference_lamps.comp.
@@ -80,11 +76,9 @@ Outputs add_reference(PassList& passes, PassResources& resources, const Inputs& 
 
     Permutation axes{{"HEIGHT_MEDIA", height_media_axis(media)},
                      {"LOCAL_MEDIA", !media.local.empty()},
-                     {"RAYLEIGH", rayleigh_axis(media, true)},
                      {"COUNT_WORK", inputs.count_work}};
     const gl::Program* lamps = inputs.has_lamps ? &resources.shaders.get(lamp_program, axes) : nullptr;
     axes["HAS_SUN"] = inputs.has_sun;
-    axes["RAYLEIGH"] = rayleigh_axis(media, inputs.has_sun);
     const gl::Program& sun = resources.shaders.get(media_program, axes);
     const bool lit = inputs.has_sun || inputs.has_lamps || inputs.has_ambient;
     const Reference reference{
