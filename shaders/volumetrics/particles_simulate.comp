@@ -113,16 +113,12 @@ Medium particle_medium(vec3 point) {
     return m;
 }
 
-// What the lamps make of one metre of the medium, seen from the front of [begin, end] of the ray. `through`: mean
-// transmittance along it.
-vec3 lamp_light(Ray ray, float begin, float end, Medium m, Extinction through) {
-    vec3 unshadowed;
-#if LAMPS == 1
-    float t = 0.5 * (begin + end);
-    return lamps_at(ray, t, t, m, unshadowed) * through;
-#elif LAMPS == 2
+// What the lamps make of one metre of the medium, seen from the front of [begin, end] of the ray.
+vec3 lamp_light(Ray ray, float begin, float end, Medium m) {
+#if LAMPS == 2
     // Over the particle's diameter: a lamp in it or beside it does not make it a firefly.
     vec3 sigma_s = medium < 0 ? volumetrics.homogeneous_sigma_s.rgb : m.sigma_s;
+    vec3 unshadowed;
     Segment segment = Segment(begin, end, 0.5, m.anisotropy, sigma_s, volumetrics.homogeneous_sigma_t.rgb);
     vec3 light = lamps_over_segment(ray, segment, unshadowed) / (end - begin);
     if (medium < 0) return light;
@@ -144,11 +140,12 @@ Particle lit_particle(vec3 center, vec4 clip, float share) {
     Medium m = particle_medium(point);
 
     vec3 global_depth = volumetrics.homogeneous_sigma_t.rgb * begin + height_optical_depth(ray.origin.y, ray.direction.y, begin);
-    vec3 local_transmittance = exp(-local_optical_depth(ray.direction, medium < 0 ? mix(begin, distance, 0.2) : begin));
-    if (medium < 0) {  // they may begin or end within the diameter
-        local_transmittance += exp(-local_optical_depth(ray.direction, distance)) +
-                               exp(-local_optical_depth(ray.direction, mix(distance, end, 0.8)));
-        local_transmittance /= 3.0;
+    // Local media may begin or end within the diameter of a global one's particle.
+    int samples = medium < 0 ? 3 : 1;
+    vec3 local_transmittance = vec3(0.0);
+    for (int i = 0; i < samples; ++i) {
+        float t = medium < 0 ? mix(begin, end, (float(i) + 0.5) / 3.0) : begin;
+        local_transmittance += exp(-local_optical_depth(ray.direction, t)) / float(samples);
     }
     vec3 sigma_t = m.optical_depth;
     if (medium >= 0 && has_global != 0) sigma_t += global_medium(point.y, 0.0, 1.0).optical_depth;
@@ -164,7 +161,7 @@ Particle lit_particle(vec3 center, vec4 clip, float share) {
     float visible = sun_visibility(point, distance * ray.forward_cosine);
     light += visible * exp(-(sun_optical_depth(point.y, -sun_direction()) + local_sun_optical_depth(point))) * sun_scattering(ray, m, Extinction(1.0));
 #endif
-    light = light * through + lamp_light(ray, begin, end, m, through);
+    light = light * through + lamp_light(ray, begin, end, m);
 
     // What the sum over the particles of a pixel is known for, see particles_resolve.frag.
     MediumSegment own = integrate_segment(min(m.optical_depth * (end - begin), MAX_OPTICAL_DEPTH), 1.0);

@@ -9,20 +9,17 @@
 namespace tyndall::volumetrics {
 namespace {
 
-const PermutationAxis height_media{"HEIGHT_MEDIA", {0, 1, MAX_HEIGHT_MEDIA}}, has_sun{"HAS_SUN", {0, 1}},
-    global_media{"GLOBAL_MEDIA", {0, 1}}, local_media{"LOCAL_MEDIA", {0, 1}}, chromatic{"CHROMATIC", {0, 1}},
-    count_work{"COUNT_WORK", {0, 1}};
+const PermutationAxis has_sun{"HAS_SUN", {0, 1}}, global_media{"GLOBAL_MEDIA", {0, 1}},
+    local_media{"LOCAL_MEDIA", {0, 1}}, chromatic{"CHROMATIC", {0, 1}}, count_work{"COUNT_WORK", {0, 1}};
 
 bool has_media(const Permutation& p) {
-    return (p.at("GLOBAL_MEDIA") != 0 || p.at("LOCAL_MEDIA") != 0) &&
-           (!p.contains("HEIGHT_MEDIA") || p.at("HEIGHT_MEDIA") == 0 || p.at("GLOBAL_MEDIA") != 0);
+    return p.at("GLOBAL_MEDIA") != 0 || p.at("LOCAL_MEDIA") != 0;
 }
 
 const ProgramDesc simulate_program{.name = "volumetrics/particles_simulate",
                                    .stages = {{GL_COMPUTE_SHADER, "shaders/volumetrics/particles_simulate.comp"}},
-                                   .axes = {{"HEIGHT_MEDIA", {0, MAX_HEIGHT_MEDIA}},
-                                            has_sun,
-                                            {"LAMPS", {0, 1, 2}},  // 1 + LampIntegration
+                                   .axes = {has_sun,
+                                            {"LAMPS", {0, 2}},  // 2: over a segment, as LampIntegration::segment
                                             {"LIGHT_VOLUMES", {0, 1, 2, 3}},
                                             count_work},
                                    .valid = is_light_volume_permutation};
@@ -34,7 +31,7 @@ const ProgramDesc draw_program{.name = "volumetrics/particles",
 const ProgramDesc resolve_program{.name = "volumetrics/particles_resolve",
                                   .stages = {{GL_VERTEX_SHADER, "shaders/volumetrics/march.vert"},
                                              {GL_FRAGMENT_SHADER, "shaders/volumetrics/particles_resolve.frag"}},
-                                  .axes = {height_media, global_media, local_media, has_sun, chromatic, count_work},
+                                  .axes = {global_media, local_media, has_sun, chromatic, count_work},
                                   .valid = has_media};
 const ProgramRegistry::Registration simulate_registration(simulate_program), draw_registration(draw_program),
     resolve_registration(resolve_program);
@@ -69,16 +66,14 @@ void dispatch(const gl::Program& shader, const ParticleBatch& batch) {
     glDispatchCompute((batch.count + 63) / 64, 1, 1);
 }
 
-BufferRef add_simulate(PassList& passes, PassResources& resources, const Inputs& inputs, const Settings& settings,
-                       const FrameMedia& media, std::vector<ParticleBatch> batches) {
+BufferRef add_simulate(PassList& passes, PassResources& resources, const Inputs& inputs, const FrameMedia& media,
+                       std::vector<ParticleBatch> batches) {
     const std::size_t bytes = (batches.back().first + batches.back().count) * sizeof(shared::Particle);
     if (resources.sprites.size() != bytes) resources.sprites = gl::Buffer(bytes, "volumetrics particles");
     BufferRef particles = passes.import_buffer("volumetrics/particles", resources.sprites.id());
-    const int lamps = 1 + static_cast<int>(settings.lamp_integration);
     const gl::Program& shader =
-        resources.shaders.get(simulate_program, {{"HEIGHT_MEDIA", media.data.counts.x > 0 ? MAX_HEIGHT_MEDIA : 0},
-                                                 {"HAS_SUN", inputs.has_sun},
-                                                 {"LAMPS", inputs.has_lamps ? lamps : 0},
+        resources.shaders.get(simulate_program, {{"HAS_SUN", inputs.has_sun},
+                                                 {"LAMPS", inputs.has_lamps ? 2 : 0},
                                                  {"LIGHT_VOLUMES", resources.light_volumes.axis()},
                                                  {"COUNT_WORK", inputs.count_work}});
     passes.add(
@@ -158,8 +153,7 @@ Outputs create_outputs(PassList& passes, const Inputs& inputs, const FrameMedia&
 
 void add_resolve(PassList& passes, const PassResources& resources, const Inputs& inputs, const Settings& settings,
                  const FrameMedia& media, const Sums& sums, Outputs& outputs) {
-    const gl::Program& shader = resources.shaders.get(resolve_program, {{"HEIGHT_MEDIA", height_media_axis(media)},
-                                                                        {"GLOBAL_MEDIA", media.has_global},
+    const gl::Program& shader = resources.shaders.get(resolve_program, {{"GLOBAL_MEDIA", media.has_global},
                                                                         {"LOCAL_MEDIA", !media.local.empty()},
                                                                         {"HAS_SUN", inputs.has_sun},
                                                                         {"CHROMATIC", media.chromatic},
@@ -199,7 +193,7 @@ Outputs add_particles(PassList& passes, PassResources& resources, const Inputs& 
     Outputs outputs = create_outputs(passes, inputs, media);
     std::vector<ParticleBatch> batches = particle_batches(inputs, settings, media);
     const auto count = static_cast<GLsizei>(batches.back().first + batches.back().count);
-    const BufferRef particles = add_simulate(passes, resources, inputs, settings, media, std::move(batches));
+    const BufferRef particles = add_simulate(passes, resources, inputs, media, std::move(batches));
     const Sums sums = add_draw(passes, resources, inputs, media, particles, count);
     add_resolve(passes, resources, inputs, settings, media, sums, outputs);
     return outputs;

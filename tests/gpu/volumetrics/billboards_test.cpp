@@ -118,10 +118,12 @@ TEST_F(VolumetricsBillboards, FadeTakesHalfItsLengthOfMedium) {
     s.billboard_layers = 256;
     s.max_distance = 32;
     host.global = {{.sigma_s = glm::vec3(0.05F)}};
+    host.ambient = glm::vec3(1);
     const Frame frame = host.render(s);
     for (int x = 0; x < 64; ++x) {
         const double d = depth(x), medium = d < 4 ? d * d / 8 : d - 2;
         ASSERT_NEAR(frame.transmittance.at(x, 0)[0], std::exp(-0.05 * medium), 2e-3) << d << " m";
+        ASSERT_NEAR(frame.scattering.at(x, 0)[0], -std::expm1(-0.05 * medium), 2e-3) << d << " m";
     }
 }
 

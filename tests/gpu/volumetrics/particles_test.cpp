@@ -93,14 +93,14 @@ TEST_F(VolumetricsParticles, LampsAndShadowsAreThoseOfTheMarchOnAverage) {
     sunlight();
     host.sun_illuminance = glm::vec3(5);
     Settings march = plain_settings(256);
-    const glm::dvec2 expected = mean_and_deviation(host.render(march).scattering);
+    const Image exact = host.render(march).scattering;
+    const glm::dvec2 expected = mean_and_deviation(exact);
     double last = 1;
     for (const auto& [count, tolerance] : {std::pair(4096, 0.15), std::pair(32768, 0.05)}) {
         s.particle_count = count;
         s.particle_distance = 24;
         const Image image = host.render(s).scattering;
         EXPECT_NEAR(mean_and_deviation(image).x, expected.x, tolerance * expected.x) << count;
-        const Image exact = host.render(march).scattering;
         double error = 0;
         for (int i = 0; i < 48 * 32; ++i) error += std::pow(image.pixels[4 * i] - exact.pixels[4 * i], 2);
         error = std::sqrt(error / (48 * 32)) / expected.x;
@@ -172,8 +172,9 @@ TEST_F(VolumetricsParticles, TheyStayWhereTheyAreWhenTheEyeMoves) {
         host.eye = eye;
         return host.render(s).scattering.pixels[0];
     };
-    const float here = picture({0, 2, 0});
-    EXPECT_NEAR(picture({0, 2, 1e-3F}), here, 2e-3F * here);
+    // 16 m is a border between the cells of all levels: behind it each has another number.
+    const float here = picture({0, 2, 15.999F});
+    EXPECT_NEAR(picture({0, 2, 16.001F}), here, 2e-3F * here);
     EXPECT_GT(here, 0);
 }
 
@@ -183,11 +184,9 @@ TEST_F(VolumetricsParticles, LightIsLinearAndWithoutLightThereIsNone) {
     const Frame dark = host.render(s);
     sunlight();
     host.shadows = 1;
-    host.lights = {point_light({1, 1, -5}, 50)};
     const Frame once = host.render(s);
     const Frame again = host.render(s);
     host.sun_illuminance *= 4.0F;
-    host.lights[0].intensity_radius *= glm::vec4(4, 4, 4, 1);
     const Frame four = host.render(s);
     for (int i = 0; i < 48 * 32; ++i) {
         const float value = once.scattering.pixels[4 * i];
