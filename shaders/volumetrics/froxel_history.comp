@@ -1,7 +1,7 @@
 // Averages the visibility of sun and lamps in the froxels over the frames, and adds their light:
 //     L = L_diffuse + V_sun L_sun + V_lamps L_lamps,    V_n = V_(n-1) + (v_n - V_(n-1)) / min(n, N).
 // Only V is kept, and of the lamps the visible share of the light of all, for each channel: light, media and phase functions
-// are this frame's and never lag. v is sampled at another place of the froxel each frame (froxel_light.comp).
+// are this frame's and never lag. V and n are stored in fixed point, which cannot hold NaN. v is sampled at another place of the froxel each frame (froxel_light.comp).
 //
 // V_(n-1) is that of the froxel's centre where the camera saw it in the frame before. It is forgotten, n = 1,
 // - outside that frame's volume and behind what it saw: nothing was stored there;
@@ -34,6 +34,10 @@ layout(rgba16, binding = 2) writeonly uniform image3D certainty_kept;
 
 uniform int history;  // 0: there is none, 1: of another camera, 2: of the same
 uniform mat4 previous_clip_from_view;
+uniform int previous_distribution;  // of the slices, see froxel_depths.glsl
+uniform vec2 previous_depths;
+uniform mat4 previous_begins;
+uniform mat4 previous_lengths;
 uniform vec2 most_frames;  // of the lamps, of the sun
 
 const ivec3 GROUP = ivec3(8, 8, 4);
@@ -95,13 +99,14 @@ vec3 place_before(ivec3 froxel, ivec3 size) {
     vec2 uv = (vec2(froxel.xy) + 0.5) / vec2(size.xy);
     vec4 near = volumetrics.inverse_projection * vec4(uv * 2.0 - 1.0, 1.0, 1.0);
     vec3 p = near.xyz / near.w;
-    float view_depth = mix(froxel_slice_begin(froxel.z, size.z), froxel_slice_begin(froxel.z + 1, size.z), 0.5);
+    float view_depth = froxel_view_depth((float(froxel.z) + 0.5) / float(size.z));
     vec4 clip = previous_clip_from_view * vec4(p * (view_depth / -p.z), 1.0);
-    if (clip.w <= 0.0 || clip.w > froxel_far()) return vec3(-2.0);
-    int slice = froxel_slice(clip.w, size.z);
-    float begin = froxel_slice_begin(slice, size.z);
-    float end = froxel_slice_begin(slice + 1, size.z);
-    return vec3((0.5 + 0.5 * clip.xy / clip.w) * vec2(size.xy), float(slice) + (clip.w - begin) / (end - begin));
+    if (clip.w <= 0.0 || clip.w > previous_depths.y) return vec3(-2.0);
+    float w = previous_distribution == FROXEL_TABLE
+                  ? froxel_w_from_table(clip.w, previous_begins, previous_lengths)
+                  : froxel_w_from_view_depth(previous_distribution, clip.w, previous_depths.x, previous_depths.y);
+    // What is nearer than the slices begin is in the first.
+    return vec3(0.5 + 0.5 * clip.xy / clip.w, max(w, 0.5 / float(size.z))) * vec3(size);
 }
 
 Kept before(ivec3 froxel, ivec3 size) {

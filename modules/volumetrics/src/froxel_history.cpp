@@ -35,23 +35,24 @@ bool keeps_history(const Inputs& inputs, const Settings& settings, const FrameMe
 void FroxelHistory::begin_frame(const Inputs& inputs, const Settings& settings, const FrameMedia& media) {
     const glm::ivec3 size{settings.froxels_x, settings.froxels_y, settings.froxels_z};
     const gl::TextureDesc desc{.kind = gl::TextureKind::d3, .format = GL_RGBA16, .size = size, .levels = 1};
-    const glm::vec4& depths = media.data.froxel_depths;
-    if (options_.w != media.data.options.w || depths.x != depths_.x || depths.y != depths_.y) {
-        visibility_.invalidate();
-        certainty_.invalidate();
-    }
     visibility_.begin_frame(desc, "volumetrics froxel visibility");
     certainty_.begin_frame(desc, "volumetrics froxel certainty");
     if (!valid()) frame_ = 0;
-    options_ = media.data.options;
-    depths_ = depths;
-    current_ = {inputs.view, inputs.projection, inputs.sun_direction};
+    const shared::VolumetricsData& data = media.data;
+    current_ = {.view = inputs.view,
+                .projection = inputs.projection,
+                .distribution = static_cast<int>(data.options.w),
+                .depths = glm::vec2(data.froxel_depths),
+                .begins = data.froxel_begins,
+                .lengths = data.froxel_lengths};
+    current_sun_ = inputs.sun_direction;
 }
 
 void FroxelHistory::end_frame() {
     visibility_.end_frame();
     certainty_.end_frame();
     previous_ = current_;
+    previous_sun_ = current_sun_;
     ++frame_;
 }
 
@@ -64,17 +65,18 @@ glm::vec3 FroxelHistory::jitter() const {
     return glm::fract(0.5 + sequence_step * double(frame_));
 }
 
-glm::mat4 FroxelHistory::previous_clip_from_view() const {
-    if (still()) return previous_.projection;
-    return glm::dmat4(previous_.projection) * glm::dmat4(previous_.view) * glm::inverse(glm::dmat4(current_.view));
-}
-
-bool FroxelHistory::still() const {
-    return previous_.view == current_.view && previous_.projection == current_.projection;
+void FroxelHistory::set_uniforms(const gl::Program& shader) const {
+    // In double precision: far from the origin the two views nearly cancel.
+    const glm::dmat4 moved = glm::dmat4(previous_.view) * glm::inverse(glm::dmat4(current_.view));
+    shader.set("previous_clip_from_view", glm::mat4(glm::dmat4(previous_.projection) * moved));
+    shader.set("previous_distribution", previous_.distribution);
+    shader.set("previous_depths", previous_.depths);
+    shader.set("previous_begins", previous_.begins);
+    shader.set("previous_lengths", previous_.lengths);
 }
 
 float FroxelHistory::sun_frames() const {
-    const float turn = glm::distance(previous_.sun_direction, current_.sun_direction);
+    const float turn = glm::distance(previous_sun_, current_sun_);
     return sun_turn / std::max(turn, 1e-5F);
 }
 
@@ -117,7 +119,7 @@ TextureRef add_froxel_history(PassList& passes, const PassResources& resources, 
             glBindImageTexture(2, context.texture(certainty).id, 0, GL_TRUE, 0, GL_WRITE_ONLY, GL_RGBA16);
             resources.uniforms.bind(GL_UNIFORM_BUFFER, BINDING_VOLUMETRICS);
             shader.set("history", valid ? history.still() ? 2 : 1 : 0);
-            shader.set("previous_clip_from_view", history.previous_clip_from_view());
+            history.set_uniforms(shader);
             shader.set("most_frames", glm::vec2(frames, std::min(frames, history.sun_frames())));
             shader.use();
             glDispatchCompute(groups.x, groups.y, groups.z);

@@ -9,8 +9,7 @@ namespace tyndall::volumetrics {
 /// and over how many frames it is a mean. Nothing is kept of the light itself, so none of it lags.
 class FroxelHistory {
   public:
-    /// Once a frame, before the passes are added. Whatever changes the froxels' places in the view (grid, depths,
-    /// distribution) ends the history; motion of the camera does not.
+    /// Once a frame, before the passes are added. Another number of froxels ends the history.
     void begin_frame(const Inputs& inputs, const Settings& settings, const FrameMedia& media);
     /// The frame was drawn.
     void end_frame();
@@ -26,22 +25,24 @@ class FroxelHistory {
     /// and the phase of the sequence along the ray, below 0 for the middle. A first frame has no other to be
     /// averaged with, so it samples the middle.
     [[nodiscard]] glm::vec3 jitter() const;
-    /// This frame's clip space from this frame's view space, of the camera as it was in the frame before.
-    [[nodiscard]] glm::mat4 previous_clip_from_view() const;
-    /// The camera is where it was.
-    [[nodiscard]] bool still() const;
+    /// The froxels are where they were.
+    [[nodiscard]] bool still() const { return previous_ == current_; }
+    /// Sets the uniforms of froxel_history.comp that tell where the froxels were.
+    void set_uniforms(const gl::Program& shader) const;
     /// Frames that the sun's visibility may be averaged over, as the sun turned since the frame before.
     [[nodiscard]] float sun_frames() const;
 
   private:
     struct View {
         glm::mat4 view{1}, projection{1};
-        glm::vec3 sun_direction{0};
+        int distribution = 0;  ///< FROXEL_*
+        glm::vec2 depths{0};   ///< nearest, farthest
+        glm::mat4 begins{0}, lengths{0};
+        friend bool operator==(const View&, const View&) = default;
     };
     History visibility_, certainty_;
     View previous_, current_;
-    glm::uvec4 options_{0};
-    glm::vec4 depths_{0};
+    glm::vec3 previous_sun_{0}, current_sun_{0};
     unsigned frame_ = 0;  ///< since the history began
 };
 
