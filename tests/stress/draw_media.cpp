@@ -32,6 +32,7 @@ Medium draw_global(bool height, const StressFrame& frame, const Structure& struc
     Medium medium;
     medium.shape = height ? Medium::Shape::height : Medium::Shape::global;
     draw_coefficients(medium, frame.media.empty(), random.chance(0.3), structure, random);
+    medium.rayleigh = random.fork("air").chance(0.2);
     if (!height) return medium;
     medium.height_profile = true;
     medium.falloff = comparable ? logarithmic(random, 3, 50) : usual_or(random, 1, 50, 1e-3, 1e5);
