@@ -51,11 +51,11 @@ Fog fog_as_at_eye(int mode, Ray ray, float surface, bool endless) {
     count_work(WORK_MEDIUM_SAMPLES, 1u);
     Curve curve = fog_curve(mode, to_extinction(m.optical_depth), surface, endless);
     Fog fog;
-    fog.glow = (m.sigma_s * ambient + m.emission) * curve.effective_length;
+    fog.glow = glow_over(m, curve.effective_length, ambient);
     fog.sun = vec3(0.0);
 #if HAS_SUN
     Extinction arriving = exp(-to_extinction(sun_optical_depth(ray.origin.y, -sun_direction())));
-    fog.sun = sun_scattering(ray, m, curve.effective_length * arriving);
+    fog.sun = sun_over(ray, m, curve.effective_length * arriving);
 #endif
     fog.transmittance = curve.transmittance;
     return fog;

@@ -12,14 +12,28 @@ struct Fog {
     Extinction transmittance;
 };
 
+// What the medium scatters and emits over a length, for light of any strength: the coefficients are multiplied by the length
+// first, which keeps them finite in the densest media.
+vec3 glow_over(Medium m, Extinction effective_length, vec3 ambient) {
+    return m.sigma_s * effective_length * ambient + m.emission * effective_length;
+}
+
+#if HAS_SUN
+vec3 sun_over(Ray ray, Medium m, Extinction effective_length) {
+    m.sigma_s *= effective_length;
+    m.sigma_s_rayleigh *= effective_length;
+    return sun_scattering(ray, m, Extinction(1.0));
+}
+#endif
+
 void add_segment(Ray ray, float begin, float end, vec3 ambient, inout Extinction sun_front, inout Fog fog) {
     Medium m = global_medium(ray.origin.y + ray.direction.y * begin, ray.direction.y, end - begin);
     count_work(WORK_MEDIUM_SAMPLES, 1u);
     Optics optics = medium_optics(m, end - begin);
-    fog.glow += fog.transmittance * ((m.sigma_s * ambient + m.emission) * optics.effective_length);
+    fog.glow += fog.transmittance * glow_over(m, optics.effective_length, ambient);
 #if HAS_SUN
     SunSegment sun = sun_segment(ray, begin, end, optics, sun_front);
-    fog.sun += fog.transmittance * sun_scattering(ray, m, sun.effective_length);
+    fog.sun += fog.transmittance * sun_over(ray, m, sun.effective_length);
 #endif
     fog.transmittance *= optics.transmittance;
 }
