@@ -18,7 +18,7 @@ struct FogPass {
 /// New targets for scattering and, where extinction is coloured, transmittance.
 [[nodiscard]] Outputs fog_targets(PassList& passes, const Inputs& inputs, const FrameMedia& media);
 
-/// The axes HEIGHT_MEDIA, CHROMATIC, RAYLEIGH and COUNT_WORK.
+/// The axes HEIGHT_MEDIA, CHROMATIC and COUNT_WORK.
 [[nodiscard]] Permutation fog_permutation(const Inputs& inputs, const FrameMedia& media);
 
 }  // namespace tyndall::volumetrics
