@@ -14,11 +14,24 @@ layout(local_size_x = 16, local_size_y = 16) in;
 layout(std430, binding = BINDING_MEDIA_TILES) readonly buffer MediaTileBuffer { uint media_tiles[]; };
 uniform uint tile_count;
 
+layout(binding = 0) uniform sampler2D farthest_view_depth;
 layout(rgba16f, binding = 0) writeonly uniform image3D froxel_scattering;
 layout(rgba16f, binding = 1) writeonly uniform image3D froxel_extinction;
 #if EMISSION
 layout(rgba16f, binding = 2) writeonly uniform image3D froxel_emission;
 #endif
+
+// Behind what a column and those around it see nobody looks, but for the march, which filters over one slice more.
+bool is_seen(ivec3 froxel, ivec3 size) {
+    float begin = froxel_slice_begin(froxel.z - 1, size.z);
+    for (int i = 0; i < 9; ++i) {
+        int around = (i + 4) % 9;  // the column itself first
+        ivec2 column = clamp(froxel.xy + ivec2(around % 3, around / 3) - 1, ivec2(0), size.xy - 1);
+        count_work(WORK_TEXTURE_FETCHES, 1u);
+        if (begin <= texelFetch(farthest_view_depth, column, 0).r) return true;
+    }
+    return false;
+}
 
 void main() {
     ivec3 size = imageSize(froxel_scattering);
@@ -29,6 +42,10 @@ void main() {
     uvec3 tile = (uvec3(media_tiles[first]) >> uvec3(0u, 10u, 20u)) & 1023u;
     ivec3 froxel = ivec3(tile * gl_WorkGroupSize + gl_LocalInvocationID);
     if (any(greaterThanEqual(froxel, size))) return;
+    if (!is_seen(froxel, size)) {
+        flush_work();
+        return;
+    }
 
     vec3 uvw = froxel_uvw_from_index(froxel, vec3(0.0), size);
     Ray ray = view_ray(uvw.xy);

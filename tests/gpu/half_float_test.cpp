@@ -61,7 +61,8 @@ TEST_F(HalfFloat, NoTargetOverflowsAndTheLimitIsReached) {
     // The transient targets too: froxel volumes, shadow maps, the sky.
     for (const PassList::TextureInfo& texture : renderer_.passes().textures()) {
         const bool plain = texture.desc.kind == gl::TextureKind::d2 || texture.desc.kind == gl::TextureKind::d3;
-        if (!texture.live || texture.id == 0 || !plain) continue;
+        const bool single = texture.desc.format == GL_R32F;  // depths of froxel columns
+        if (!texture.live || texture.id == 0 || !plain || single) continue;
         for (int slice = 0; slice < texture.desc.size.z; ++slice)
             expect_finite(gl::read_texture({texture.id, texture.desc}, slice), texture.name);
     }

@@ -5,11 +5,12 @@ namespace tyndall::volumetrics {
 
 Fog add_froxel_fog(PassList& passes, const PassResources& resources, const Inputs& inputs, const Settings& settings,
                    const FrameMedia& media, const FroxelMedia& froxels, FroxelHistory& history) {
-    const TextureRef columns = add_froxel_columns(passes, resources, inputs, settings);
+    const TextureRef columns =
+        froxels.columns ? froxels.columns : add_froxel_columns(passes, resources, inputs, settings);
     const bool keeps = keeps_history(inputs, settings, media);
     if (keeps) history.begin_frame(inputs, settings, media);
-    const FroxelLight light = add_froxel_light(passes, resources, inputs, settings, media, froxels, columns,
-                                               keeps ? &history : nullptr);
+    const FroxelLight light =
+        add_froxel_light(passes, resources, inputs, settings, media, froxels, columns, keeps ? &history : nullptr);
     TextureRef radiance = light.radiance;
     if (keeps)
         radiance = add_froxel_history(passes, resources, inputs, settings, columns, light, history);

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "froxel_passes.h"
 #include "froxel_tiles.h"
 #include "passes.h"
 #include "shaders/shared/bindings.h"
@@ -20,6 +21,7 @@ FroxelMedia add_inject_media(PassList& passes, const PassResources& resources, c
     const glm::ivec3 size{settings.froxels_x, settings.froxels_y, settings.froxels_z};
     const gl::TextureDesc desc{.kind = gl::TextureKind::d3, .format = GL_RGBA16F, .size = size, .levels = 1};
     FroxelMedia froxels;
+    froxels.columns = add_froxel_columns(passes, resources, inputs, settings);
     froxels.scattering = passes.create("volumetrics/froxel_scattering", desc);
     froxels.extinction = passes.create("volumetrics/froxel_extinction", desc);
     if (media.local_emission) froxels.emission = passes.create("volumetrics/froxel_emission", desc);
@@ -29,6 +31,7 @@ FroxelMedia add_inject_media(PassList& passes, const PassResources& resources, c
     passes.add(
         "volumetrics/inject_media",
         [&](PassBuilder& builder) {
+            builder.sample(froxels.columns);
             froxels.scattering = builder.storage_write(froxels.scattering);
             froxels.extinction = builder.storage_write(froxels.extinction);
             if (froxels.emission) froxels.emission = builder.storage_write(froxels.emission);
@@ -42,6 +45,7 @@ FroxelMedia add_inject_media(PassList& passes, const PassResources& resources, c
             bind_image(0, froxels.scattering);
             bind_image(1, froxels.extinction);
             bind_image(2, froxels.emission);
+            const BoundTextures bound{{context.texture(froxels.columns), resources.nearest}};
             resources.uniforms.bind(GL_UNIFORM_BUFFER, BINDING_VOLUMETRICS);
             resources.local_media.bind(GL_SHADER_STORAGE_BUFFER, BINDING_LOCAL_MEDIA);
             resources.media_tiles.bind(GL_SHADER_STORAGE_BUFFER, BINDING_MEDIA_TILES);
