@@ -90,15 +90,12 @@ std::vector<Group> stress_groups(const Place& place, const PlaceFacts& facts, co
 
 const std::string standard = "march, Bayer, blur";
 
-/// Each technique as it comes, the march with dither and blur.
+/// Each technique as it comes: its last row names it.
 std::vector<Group> approaches_groups(const Place& place, const PlaceFacts& facts, const SuiteRequest& request) {
     Group group{place.name, {}, facts};
     for (const std::string& technique : volumetrics::technique_names()) {
-        const auto is_row = [&](const Family& f) {
-            return f.technique == technique && (technique != "ray_march" || f.name == standard);
-        };
-        const auto row = std::ranges::find_if(families(), is_row);
-        if (row == families().end() || (row->limit && request.against_gpu)) continue;
+        const auto row = std::ranges::find(families().rbegin(), families().rend(), technique, &Family::technique);
+        if (row == families().rend() || (row->limit && request.against_gpu)) continue;
         Configuration c;
         c.family = row->name;
         c.settings = {"technique=" + technique};

@@ -44,7 +44,7 @@ struct VolumetricsData {
     uvec4 options;              // x PHASE_*, y 1: light is attenuated on its way in, z 1: ambient light, w FROXEL_*
     vec4 phase_back;            // x anisotropy, y weight of the back lobe (PHASE_DOUBLE_HENYEY_GREENSTEIN)
     vec4 march;                 // x max distance (m), y first step / ray length, z each step / the one before; w 1: froxels have an optical depth by channel
-    vec4 froxel_depths;         // x nearest, y farthest view depth (m) of the froxel volume; z jitter 0..1, < 0: none
+    vec4 froxel_depths;         // x nearest, y farthest view depth (m) of the froxel volume
     vec4 medium_depths;         // x nearest, y farthest view depth (m) at which the march finds a medium
     vec4 fog;                   // x FOG_*, y samples to the light, z weight at the light, w visibility of an unseen sun
     mat4 froxel_begins;         // FROXEL_TABLE: view depth (m) where each of 16 equal shares of the slices begins

@@ -41,17 +41,16 @@ const float OPAQUE = 2.98e-8;
 // The least share of a slice that is lit: a shorter one would be scaled up from nothing.
 const float LEAST_SHARE = 1.0 / 64.0;
 
-// Where a froxel is sampled, as a share of the light of its slice. Jitter is a low-discrepancy sequence over the frames
-// (its additive part is froxel_depths.z), and other slices and columns are at other places of it.
+// Where visibility is sampled, as a share of the light of the slice. With a history it moves along a low-discrepancy
+// sequence from frame to frame, and other slices and columns are at other places of it.
 float sample_offset(ivec3 froxel) {
 #if FROXEL_HISTORY
-    float phase = visibility_jitter.z;
-#else
-    float phase = volumetrics.froxel_depths.z;
+    if (visibility_jitter.z >= 0.0) {
+        float column = (float(bayer_rank(uvec2(froxel.xy), 4u)) + 0.5) / 16.0;
+        return fract(visibility_jitter.z + column + float(froxel.z) * 0.61803399);
+    }
 #endif
-    if (phase < 0.0) return 0.5;
-    float column = (float(bayer_rank(uvec2(froxel.xy), 4u)) + 0.5) / 16.0;
-    return fract(phase + column + float(froxel.z) * 0.61803399);
+    return 0.5;
 }
 
 #if FROXEL_HISTORY

@@ -142,13 +142,10 @@ void add_local(const Inputs& inputs, const Settings& settings, FrameMedia& media
     media.data.options.w = static_cast<unsigned>(grid.distribution);
     media.data.froxel_begins = grid.begins;
     media.data.froxel_lengths = grid.lengths;
-    // R1 sequence over the frames (Roberts 2018): multiples of the golden ratio.
-    const double phase = inputs.frame_index * 0.6180339887498949;
-    const float jitter = settings.froxel_jitter ? static_cast<float>(phase - std::floor(phase)) : -1.0F;
     media.data.medium_depths = {0, 1e9F, 0, 0};
     if (!media.has_global && !media.local_froxels.empty() && settings.technique != Technique::reference)
         media.data.medium_depths = glm::vec4(view_depths(media.local_froxels, grid), 0, 0);
-    media.data.froxel_depths = {grid.nearest, grid.farthest, jitter, 0};
+    media.data.froxel_depths = {grid.nearest, grid.farthest, 0, 0};
 }
 
 /// Segment i of N has the length first * ratio^i of the ray, which sums to 1; the last is ratio^(N-1) = e^strength

@@ -121,11 +121,6 @@ const SettingsTable& settings_table() {
             .real(&S::froxel_curve_6, curve_text(6), 0.001, 1000, Scale::logarithmic)
             .real(&S::froxel_curve_7, curve_text(7), 0.001, 1000, Scale::logarithmic)
             .real(&S::froxel_curve_8, curve_text(8), 0.001, 1000, Scale::logarithmic)
-            .boolean(&S::froxel_jitter,
-                     {"froxel_jitter", "Froxel jitter",
-                      "Technique froxel: visibility is sampled at another place of each froxel, column and frame; "
-                      "noise instead of bands."},
-                     Effect::uniform)
             .integer(&S::froxel_history,
                      {"froxel_history", "Froxel history",
                       "Technique froxel: frames over which the visibility of sun and lamps is averaged, sampled all over "

@@ -198,26 +198,6 @@ TEST_F(VolumetricsFroxel, NothingLeaksThroughAWall) {
         }
 }
 
-TEST_F(VolumetricsFroxel, JitterFindsTheMeanOverTheFrames) {
-    host.size = {8, 8};
-    host.vertical_fov = 1e-4F;
-    host.view_depth = [](int, int) { return 20.0F; };
-    host.has_sun = true;
-    host.sun_direction = glm::normalize(glm::vec3(0.3F, -1, 0.1F));
-    host.sun_illuminance = glm::vec3(1000);
-    host.global = {{.sigma_s = glm::vec3(0.01F)}};
-    host.shadows = 1;
-    const double expected = host.render(plain_settings(1024)).scattering.at(0, 0)[0];
-    Settings s = settings(8, 8);
-    s.froxels_z = 8;
-    s.froxel_far = 40;
-    s.froxel_jitter = true;
-    double mean = 0;
-    for (host.frame_index = 0; host.frame_index < 32; ++host.frame_index)
-        mean += host.render(s).scattering.at(4, 4)[0] / 32.0;
-    EXPECT_NEAR(mean, expected, 0.03 * expected);
-}
-
 TEST_F(VolumetricsFroxel, StepsAreThereWhenTheyAreNeeded) {
     using ::testing::ElementsAre;
     host.global = {{.sigma_s = glm::vec3(0.1F)}};

@@ -48,8 +48,7 @@ struct Settings {
     DepthDistribution froxel_distribution = DepthDistribution::exponential;
     float froxel_curve_1 = 0.3f, froxel_curve_2 = 0.5f, froxel_curve_3 = 0.7f, froxel_curve_4 = 1,
           froxel_curve_5 = 1.5f, froxel_curve_6 = 2.5f, froxel_curve_7 = 6, froxel_curve_8 = 16;
-    bool froxel_jitter = false;
-    int froxel_history = 0;
+    int froxel_history = 128;
     int sun_volume_size = 128;
     int lamp_volume_size = 24;
     int lamp_volume_count = 256;
