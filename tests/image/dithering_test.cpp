@@ -1,5 +1,5 @@
 // The thesis' claim on the level's places: eight Bayer-dithered samples with a bilateral blur beat many undithered
-// ones and white noise, measured against 1,024 undithered steps (256 in LocalLights).
+// ones and white noise, measured against 512 undithered steps (128 in LocalLights).
 #include <gtest/gtest.h>
 
 #include "engine/core/image.h"
@@ -18,7 +18,7 @@ class Dithering : public ::testing::TestWithParam<const char*> {
     Image draw(const std::vector<std::string>& settings) {
         const std::filesystem::path out = folder_ / "out.exr";
         std::vector<std::string> arguments{"render",   level(),  "-o",      out.string(), "--camera",
-                                           GetParam(), "--size", "320x180", "--layer",    "scattering"};
+                                           GetParam(), "--size", "240x135", "--layer",    "scattering"};
         for (const std::string& s : settings) arguments.insert(arguments.end(), {"--set", s});
         const CommandResult result = run_tyndall(arguments);
         EXPECT_EQ(result.exit_code, 0) << result.err;
@@ -28,7 +28,7 @@ class Dithering : public ::testing::TestWithParam<const char*> {
     // all.
     void SetUp() override {
         const bool lamps = std::string(GetParam()) == "LocalLights";
-        reference_ = draw({lamps ? "steps=256" : "steps=1024", "dither=none", "blur=none"});
+        reference_ = draw({lamps ? "steps=128" : "steps=512", "dither=none", "blur=none"});
     }
     TemporaryFolder folder_;
     Image reference_;

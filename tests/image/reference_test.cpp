@@ -111,8 +111,10 @@ TEST_F(ReferenceCommand, IsTheTechniqueReferenceInAirAndHaze) {
         {"shape":"height","scattering":[0.003,0.008,0.02],"phase":"rayleigh","base":0,"falloff":15},
         {"shape":"global","scattering":[0.004,0.004,0.004],"absorption":[0.002,0.001,0],"anisotropy":0.6}])"});
     for (const char* phase : {"cornette_shanks", "double_henyey_greenstein"}) {
-        const std::vector<std::string> options{"--layer",     "scattering",     "--set", "shadows=false",
-                                               "--technique", "reference",      "--set", "max_distance=2000",
+        const std::vector<std::string> options{"--layer",     "scattering",
+                                               "--set",       "shadows=false",
+                                               "--technique", "reference",
+                                               "--set",       "max_distance=2000",
                                                "--set",       std::string("phase=") + phase};
         EXPECT_LT(relative_rmse(picture("render", options), picture("reference", options)), 1e-3) << phase;
     }
