@@ -208,17 +208,15 @@ float cone_over_angle(float along, float across, float begin, float end, vec2 sc
 float lamp_segment_cone_correction(LampSegment segment, LampRay ray, float t_begin, float t_end, float radius,
                                    float along, float across, vec2 scale_offset) {
     float h = ray.h;
-    float rule = lamp_segment_integral(segment);
-    if (h <= max(radius, LAMP_MIN_RADIUS) || rule <= 0.0f) {
+    if (h <= max(radius, LAMP_MIN_RADIUS)) {
         return 1.0f;
     }
     vec4 u = segment.t - ray.t_closest;
     vec4 d = sqrt(h * h + u * u);
     vec4 cos_axis = (along * h + across * u) / d;
-    float at_nodes = segment.weight.x * spot_cone(cos_axis.x, scale_offset) +
-                     segment.weight.y * spot_cone(cos_axis.y, scale_offset) +
-                     segment.weight.z * spot_cone(cos_axis.z, scale_offset) +
-                     segment.weight.w * spot_cone(cos_axis.w, scale_offset);
+    // Weights of the angle alone: those of the segment hold the range window, too.
+    float at_nodes = 0.17392742f * (spot_cone(cos_axis.x, scale_offset) + spot_cone(cos_axis.w, scale_offset)) +
+                     0.32607258f * (spot_cone(cos_axis.y, scale_offset) + spot_cone(cos_axis.z, scale_offset));
     float begin = atan(t_begin - ray.t_closest, h);
     float end = atan(t_end - ray.t_closest, h);
     // On the plateau |phi - peak| <= half_width.
@@ -230,7 +228,7 @@ float lamp_segment_cone_correction(LampSegment segment, LampRay ray, float t_beg
     float mean = (cone_over_angle(along, across, begin, enter, scale_offset) + (leave - enter) +
                   cone_over_angle(along, across, leave, end, scale_offset)) /
                  max(end - begin, 1.0e-20f);
-    return at_nodes > 1.0e-6f * rule && end - begin > 1.0e-5f ? mean * rule / at_nodes : 1.0f;
+    return at_nodes > 1.0e-6f && end - begin > 1.0e-5f ? mean / at_nodes : 1.0f;
 }
 
 // The mean of t by weight: the representative point of a single sample, as of visibility. t_begin where all weights

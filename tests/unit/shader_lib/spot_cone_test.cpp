@@ -30,7 +30,8 @@ struct Errors {
     double plain = 0, corrected = 0;
 };
 
-Errors errors_over(std::mt19937& random, double h, double least_flank) {
+// range: of the lamp, 0 for none.
+Errors errors_over(std::mt19937& random, double h, double least_flank, double range = 0) {
     std::uniform_real_distribution<double> uniform(0, 1);
     const Cone cone{.inner = 0.1 + 0.5 * uniform(random), .outer = 0};
     Cone c = cone;
@@ -47,19 +48,25 @@ Errors errors_over(std::mt19937& random, double h, double least_flank) {
         begin = std::min(begin, phi);
         end = std::max(end, phi);
     }
-    if (begin >= end) return {};
+    const double reach = range > 0 ? std::acos(std::min(1.0, h / range)) : 2;
+    begin = std::max(begin, -reach);
+    end = std::min(end, reach);
+    if (end - begin < 0.05) return {};
     const double a = h * std::tan(begin), b = h * std::tan(end);
     double exact = 0;  // int cone / (h^2 + u^2) du, kinks lie where the midpoint rule does not mind
     constexpr int n = 20000;
     for (int i = 0; i < n; ++i) {
         const double phi = begin + (end - begin) * (i + 0.5) / n;
-        exact += c.law(cosine(h * std::tan(phi))) * (end - begin) / n / h;
+        const double s = range > 0 ? std::pow(h / std::cos(phi) / range, 4) : 0;
+        exact += c.law(cosine(h * std::tan(phi))) * (1 - s) * (end - begin) / n / h;
     }
+    if (exact * h < 0.1 * (end - begin)) return {};  // next to nothing, at the end of the range
     glsl::LampRay ray;
     ray.t_closest = 5;
     ray.h = static_cast<float>(h);
     const float t0 = static_cast<float>(5 + a), t1 = static_cast<float>(5 + b);
-    const glsl::LampSegment rule = glsl::lamp_segment(ray, t0, t1, 0.01f, 0.0f);
+    const glsl::LampSegment rule =
+        glsl::lamp_segment(ray, t0, t1, 0.01f, range > 0 ? static_cast<float>(1 / range) : 0.0f);
     const glm::vec2 law =
         glsl::spot_scale_offset(static_cast<float>(std::cos(c.inner)), static_cast<float>(std::cos(c.outer)));
     double plain = 0;
@@ -84,6 +91,19 @@ TEST(SpotCone, CorrectionMakesTheConeExactNearTheLamp) {
     EXPECT_LT(worst.corrected, 0.003);
     EXPECT_GT(worst.plain, 0.03);  // what it is for
     EXPECT_GT(plain, 0.003);
+}
+
+TEST(SpotCone, TheRangeOfTheLampIsNotCountedTwice) {
+    std::mt19937 random(7);
+    Errors sum;
+    constexpr int count = 200;
+    for (int i = 0; i < count; ++i) {
+        const Errors e = errors_over(random, 2, 0.05, 2.2 + 0.02 * i);
+        EXPECT_LT(e.corrected, 0.06) << i;
+        sum.corrected += e.corrected / count;
+        sum.plain += e.plain / count;
+    }
+    EXPECT_LT(sum.corrected, 0.01);
 }
 
 TEST(SpotCone, AThinFlankIsAStep) {
