@@ -73,7 +73,7 @@ int Runner::frames_left(const Point& point) const {
     if (!suite_.times) return frames;
     if (!m.work) ++frames;
     const int missing = std::max(0, options_.repeats - static_cast<int>(m.times.size()));
-    return frames + missing * (1 + std::max(1, history));
+    return frames + missing * (history > 0 ? 3 : 2);
 }
 
 bool Runner::timed_enough(const Point& point) const {
@@ -163,16 +163,14 @@ void Runner::measure(const Point& point, bool motion) {
     if (work) store_.add_work(key, measure_work(*session_, view, point));
 }
 
-/// First one frame (or as many as history needs) that nobody times: others drew before.
+/// First one frame (two with a history) that nobody times: others drew before.
 void Runner::time_turn(const Point& point) {
     const View view = show(point);
     const std::vector<PassTimes>& known = store_.at(point.key()).times;
     int settle = !known.empty() && total(known.back()) > slow_frame ? 0 : 1;
     if (warm_.insert(point.key()).second) settle = 3;
-    if (point.configuration.history_frames > 0) {
-        session_->renderer->invalidate_history();
-        settle = point.configuration.history_frames;
-    }
+    // What a history holds changes no cost, but the first frame makes it.
+    if (point.configuration.history_frames > 0) settle = std::max(settle, 2);
     for (int i = 0; i < settle; ++i) session_->draw(view, point.place->time);
     session_->timer->set_mode(session_->timer_mode());
     session_->draw(view, point.place->time);
