@@ -40,6 +40,13 @@ void limit_resources(FrameOptions& options) {
     volumetrics::Settings& v = options.volumetrics;
     halve_until(v.froxels_x, v.froxels_y, v.froxels_z, 100'000);
     for (int* side : {&v.froxels_x, &v.froxels_y, &v.froxels_z}) *side |= 1;  // see odd() in frame.cpp
+    const auto at_most = [](int& value, int most) { value = std::min(value, most); };
+    at_most(v.sun_volume_size, 32);
+    at_most(v.lamp_volume_size, 12);
+    at_most(v.particle_count, 4096);
+    at_most(v.particle_local_count, 4096);
+    at_most(v.billboard_layers, 32);
+    at_most(v.shaft_grid, 96);
     RenderSettings& r = options.render;
     halve_until(r.cluster_x, r.cluster_y, r.cluster_z, 20'000);
 }
