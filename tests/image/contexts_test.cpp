@@ -30,7 +30,7 @@ class Contexts : public ::testing::TestWithParam<const char*> {
     Image draw(const std::string& context) {
         const std::filesystem::path out = folder_ / (context + ".png");
         const CommandResult result = run_tyndall({"render", level(), "-o", out.string(), "--camera", GetParam(),
-                                                  "--size", "320x180", "--context", context});
+                                                  "--size", "160x90", "--context", context});
         EXPECT_EQ(result.exit_code, 0) << result.err;
         return read_image(out, 3);
     }
@@ -48,7 +48,7 @@ TEST_P(Contexts, DrawTheSamePicture) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Places, Contexts,
-                         ::testing::Values("LocalPM", "Close", "LocalLights", "Sun", "Depth", "Balance"),
+                         ::testing::Values("LocalPM", "Close", "LocalLights", "Sun", "Depth", "Balance", "Glass"),
                          [](const auto& info) { return std::string(info.param); });
 
 }  // namespace
