@@ -19,7 +19,7 @@ namespace {
 /// The rows of the paper's frame breakdown and the passes they sum (by prefix).
 const std::vector<std::pair<std::string, std::vector<std::string>>> breakdown{
     {"Volumetrics, total", {"volumetrics/"}}, {"Media injection", {"volumetrics/inject_media"}},
-    {"Ray march", {"volumetrics/march"}},     {"Blur", {"volumetrics/blur"}},
+    {"Ray march", {"volumetrics/march"}},     {"Filter", {"volumetrics/filter"}},
     {"Composite", {"volumetrics/composite"}}, {"Whole frame", {""}}};
 
 struct FrameTimes {

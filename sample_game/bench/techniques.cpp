@@ -10,12 +10,12 @@
 namespace tyndall::bench {
 namespace {
 
-/// Ray marching with one dither and one blur: one curve family of six.
-Family march(const std::string& name, const std::string& dither, const std::string& blur, const std::string& color,
+/// Ray marching with one noise and one filter: one curve family of six.
+Family march(const std::string& name, const std::string& noise, const std::string& filter, const std::string& color,
              Marker marker) {
     return {name,
             "ray_march",
-            {"dither=" + dither, "blur=" + blur},
+            {"noise=" + noise, "filter=" + filter},
             {{"lamp_integration", {"segment", "center"}, true}, {"steps", {"2", "4", "8", "16", "32", "64"}}},
             "steps",
             color,
@@ -27,11 +27,11 @@ Family march(const std::string& name, const std::string& dither, const std::stri
 const std::vector<Family>& families() {
     static const std::vector<Family> list{
         march("march, undithered", "none", "none", "#9a9a9a", Marker::circle),
-        march("march, undithered, blur", "none", "bilateral", "#3d3d3d", Marker::circle),
-        march("march, white", "white", "none", "#f0a868", Marker::triangle),
-        march("march, white, blur", "white", "bilateral", "#c4500a", Marker::triangle),
+        march("march, undithered, blur", "none", "gaussian15", "#3d3d3d", Marker::circle),
+        march("march, white", "white_tile", "none", "#f0a868", Marker::triangle),
+        march("march, white, blur", "white_tile", "gaussian15", "#c4500a", Marker::triangle),
         march("march, Bayer", "bayer", "none", "#7db4e0", Marker::square),
-        march("march, Bayer, blur", "bayer", "bilateral", "#0b5fa5", Marker::square),
+        march("march, Bayer, blur", "bayer", "gaussian15", "#0b5fa5", Marker::square),
         {"froxel",
          "froxel",
          {"froxel_history=0"},

@@ -15,7 +15,7 @@
 #define BINDING_VISIBLE_LIGHTS 5
 #define BINDING_VISIBLE_INSTANCES 6
 #define BINDING_LOCAL_MEDIA 7
-#define BINDING_DITHER 8
+#define BINDING_NOISE 8
 #define BINDING_MEDIA_TILES 9
 #define BINDING_UNFINISHED 10
 #define BINDING_SPRITES 11
@@ -30,6 +30,7 @@
 #define UNIT_AMBIENT 11
 #define UNIT_SUN_VOLUME 12
 #define UNIT_LAMP_VOLUMES 13
+#define UNIT_NOISE 5
 
 // What shaders/volumetrics/apply.glsl samples, beside the textures of the pass that includes it.
 #define UNIT_FOG_COLUMNS 6

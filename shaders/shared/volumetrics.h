@@ -8,6 +8,20 @@
 #define SHAPE_ELLIPSOID 0
 #define SHAPE_BOX 1
 
+// Settings noise and noise_time, in their order.
+#define NOISE_NONE 0
+#define NOISE_BAYER 1
+#define NOISE_WHITE 2
+#define NOISE_WHITE_TILE 3
+#define NOISE_IGN 4
+#define NOISE_BLUE 5
+#define NOISE_STBN 6
+#define NOISE_FAST 7
+#define NOISE_TIME_FIXED 0
+#define NOISE_TIME_OWN 1
+#define NOISE_TIME_GOLDEN_RATIO 2
+#define NOISE_TIME_R2 3
+
 #define FOG_LINEAR 0
 #define FOG_SQUARED 1
 #define FOG_EXPONENTIAL 2
@@ -35,12 +49,14 @@ struct VolumetricsData {
     mat4 inverse_projection;
     mat4 inverse_view;
     vec4 eye;                   // xyz world, w near (m)
-    vec4 viewport;              // width, height, 1/width, 1/height of the march target, px
+    vec4 viewport;              // width, height, 1/width, 1/height of the depth buffer, px
+    vec4 target;                // of what is drawn to at the chosen resolution: width, height, px; zw screen (0..1) per px of it
     vec4 homogeneous_sigma_s;   // rgb 1/m, w anisotropy (weighted by scattering over the homogeneous media, Rayleigh's left out)
     vec4 homogeneous_sigma_t;   // rgb 1/m
     vec4 homogeneous_emission;  // rgb radiance per metre
     vec4 homogeneous_rayleigh;  // rgb 1/m: the part of sigma_s with Rayleigh's phase function
-    uvec4 counts;               // x height media, y local media, z steps, w side of the dither tile (px)
+    uvec4 counts;               // x height media, y local media, z steps, w side of the noise tile (px), 1: none
+    uvec4 noise;                // x NOISE_*, y NOISE_TIME_*, z frame
     uvec4 options;              // x PHASE_*, y 1: light is attenuated on its way in, z 1: ambient light, w FROXEL_*
     vec4 phase_back;            // x anisotropy, y weight of the back lobe (PHASE_DOUBLE_HENYEY_GREENSTEIN)
     vec4 march;                 // x max distance (m), y first step / ray length, z each step / the one before; w 1: froxels have an optical depth by channel

@@ -4,6 +4,7 @@
 // Global media, transmittances and the inverse square of lamps are integrated in closed form; only local media and
 // visibility are sampled, once a segment, at an offset that differs from pixel to pixel.
 #include "shaders/volumetrics/froxel_depths.glsl"
+#include "shaders/volumetrics/noise_offset.glsl"
 #include "shaders/volumetrics/segment_light.glsl"
 #include "shaders/lib/pack.glsl"
 
@@ -15,7 +16,6 @@ layout(binding = 2) uniform sampler3D froxel_extinction;  // rgb sigma_t
 #if LOCAL_MEDIA == 2
 layout(binding = 3) uniform sampler3D froxel_emission;
 #endif
-layout(std430, binding = BINDING_DITHER) readonly buffer DitherBuffer { float dither_offsets[]; };
 
 layout(location = 0) flat in vec3 ambient;
 layout(location = 0) out vec4 out_scattering;
@@ -25,12 +25,6 @@ layout(location = 1) out vec4 out_transmittance;
 
 // Half of the smallest half-float number: a transmittance of this is stored as 0, and nothing behind it shows.
 const float OPAQUE = 2.98e-8;
-
-float dither_offset() {
-    uint side = volumetrics.counts.w;
-    uvec2 cell = uvec2(gl_FragCoord.xy) % side;
-    return dither_offsets[cell.x + side * cell.y];
-}
 
 // Adds the local media at a distance t to a segment of the global ones; returns their sigma_t.
 vec3 add_local_media(Ray ray, float t, float path_length, inout Medium m, inout vec3 sigma_s) {
@@ -67,7 +61,7 @@ void march_segment(Ray ray, float a, float b, float offset, inout Extinction sun
 }
 
 void main() {
-    vec2 uv = gl_FragCoord.xy * volumetrics.viewport.zw;
+    vec2 uv = gl_FragCoord.xy * volumetrics.target.zw;
     Ray ray = view_ray(uv);
     float depth = texelFetch(depth_texture, ivec2(gl_FragCoord.xy), 0).r;
     count_work(WORK_TEXTURE_FETCHES, 1u);
@@ -75,7 +69,7 @@ void main() {
     // Without a global medium only the depths that hold local ones.
     vec2 medium = volumetrics.medium_depths.xy / ray.forward_cosine;
     float end = min(surface, min(volumetrics.march.x, medium.y));
-    float offset = dither_offset();
+    float offset = noise_offset(uvec2(gl_FragCoord.xy));
 
     March march = March(vec3(0.0), Extinction(1.0));
     Extinction sun_front = Extinction(0.0);

@@ -1,5 +1,5 @@
 // Light shafts as a post-process: the closed form of fog.glsl, its sun multiplied by the visibility that
-// radial_visibility.frag finds on screen and the blur has freed of dither noise. Fog itself is neither dithered nor blurred.
+// radial_visibility.frag finds on screen and the filter has freed of noise. Fog itself is neither dithered nor filtered.
 // Without an occluder on screen it is the closed form itself.
 // It cannot: occluders off screen or hidden behind others, a sun that is not on screen (behind the camera, or beyond the
 // border: then the share radial_unseen of the sun is all there is), lamps, local media. Where in the fog a shadow lies it

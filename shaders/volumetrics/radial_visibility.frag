@@ -18,20 +18,14 @@
 #define RAYLEIGH 0
 #include "shaders/lib/pack.glsl"
 #include "shaders/volumetrics/fog.glsl"
+#include "shaders/volumetrics/noise_offset.glsl"
 
 layout(binding = 0) uniform sampler2D depth_texture;
-layout(std430, binding = BINDING_DITHER) readonly buffer DitherBuffer { float dither_offsets[]; };
 
 layout(location = 0) flat in vec3 sun_clip;  // x, y, w
 layout(location = 0) out vec4 out_visibility;
 
 const float FADE = 0.5;  // beyond the border, in half widths of the screen
-
-float dither_offset() {
-    uint side = volumetrics.counts.w;
-    uvec2 cell = uvec2(gl_FragCoord.xy) % side;
-    return dither_offsets[cell.x + side * cell.y];
-}
 
 // 1 with the sun on screen, 0 from FADE beyond it and behind the camera.
 float sun_on_screen() {
@@ -67,11 +61,11 @@ bool is_one_surface(float depth_0, float depth_1, float ratio) {
 // Between texels of one surface interpolated: buffer depth is linear over a plane on screen, which so cannot shadow
 // itself. Else that of the nearest texel.
 float depth_on_line(Line line, float u) {
-    vec2 p = mix(line.begin, line.end, u) * volumetrics.viewport.xy - 0.5;
+    vec2 p = mix(line.begin, line.end, u) * volumetrics.target.xy - 0.5;
     vec2 corner = floor(p);
     vec2 f = p - corner;
     count_work(WORK_TEXTURE_FETCHES, 1u);
-    vec4 four = textureGather(depth_texture, (corner + 1.0) * volumetrics.viewport.zw);  // 01, 11, 10, 00
+    vec4 four = textureGather(depth_texture, (corner + 1.0) * volumetrics.target.zw);  // 01, 11, 10, 00
     vec2 low = min(four.xy, four.zw), high = max(four.xy, four.zw);
     if (is_one_surface(min(low.x, low.y), max(high.x, high.y), BETWEEN_TEXELS))
         return mix(mix(four.w, four.z, f.x), mix(four.x, four.y, f.x), f.y);
@@ -117,7 +111,7 @@ float visibility_on_screen(Ray ray, float depth, float surface) {
     Shares shares = Shares(sun_front, depth, gathered(ray, visible_end(ray, surface), sun_front));
     Line line = line_to_sun(ray.uv);
     uint samples = uint(volumetrics.fog.y);
-    float offset = dither_offset();
+    float offset = noise_offset(uvec2(gl_FragCoord.xy));
     float place = volumetrics.counts.w > 1u ? fract(offset * 39.55) : 0.5;  // another sequence than the samples'
     uint shadowed = 0u;
     float u_before = 0.0, before = depth, share_before = 1.0;
@@ -143,7 +137,7 @@ float visibility_on_screen(Ray ray, float depth, float surface) {
 float visibility_on_screen(Ray ray, float depth, float surface) {
     Line line = line_to_sun(ray.uv);
     uint samples = uint(volumetrics.fog.y);
-    float offset = dither_offset();
+    float offset = noise_offset(uvec2(gl_FragCoord.xy));
     float lit = 0.0, total = 0.0;
     for (uint i = 0u; i < samples; ++i) {
         float u = line.reach * (float(i) + offset) / float(samples);
@@ -157,7 +151,7 @@ float visibility_on_screen(Ray ray, float depth, float surface) {
 #endif
 
 void main() {
-    vec2 uv = gl_FragCoord.xy * volumetrics.viewport.zw;
+    vec2 uv = gl_FragCoord.xy * volumetrics.target.zw;
     Ray ray = view_ray(uv);
     float depth = texelFetch(depth_texture, ivec2(gl_FragCoord.xy), 0).r;
     count_work(WORK_TEXTURE_FETCHES, 1u);

@@ -50,8 +50,8 @@ class HalfFloat : public GlTest {
 TEST_F(HalfFloat, NoTargetOverflowsAndTheLimitIsReached) {
     FrameOptions options;
     options.more_layers = {"scattering", "transmittance", "emissive"};
-    for (const auto blur : {volumetrics::Blur::none, volumetrics::Blur::gaussian, volumetrics::Blur::bilateral}) {
-        options.volumetrics.blur = blur;
+    for (const auto filter : {volumetrics::Filter::none, volumetrics::Filter::gaussian15}) {
+        options.volumetrics.filter = filter;
         draw(options);
         for (const std::string& layer : options.more_layers) expect_finite(renderer_.read_layer(layer), layer);
         expect_finite(gl::read_texture(renderer_.color()), "color");

@@ -151,7 +151,7 @@ TEST_F(Lighting, AnAbsorbingMediumDimsBothLegs) {
     Medium medium;
     medium.sigma_a = glm::vec3(0.2f);
     builder_.scene.media.push_back(medium);
-    options_.volumetrics.blur = volumetrics::Blur::none;
+    options_.volumetrics.filter = volumetrics::Filter::none;
     for (const bool first_leg : {true, false}) {
         options_.volumetrics.light_transmittance = first_leg;
         expect_ground(

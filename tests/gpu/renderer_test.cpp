@@ -188,7 +188,7 @@ TEST_F(RendererTest, LayersHoldWhatTheirNamesSay) {
     Medium absorbing;
     absorbing.sigma_a = glm::vec3(0.1f);
     builder_.scene.media.push_back(absorbing);
-    options_.volumetrics.blur = volumetrics::Blur::none;
+    options_.volumetrics.filter = volumetrics::Filter::none;
     draw();
     const float distance = glm::length(glm::vec3(p));
     EXPECT_NEAR(renderer_.read_layer().at(ground_x, ground_y)[0], std::exp(-0.1f * distance), 0.003f);

@@ -28,18 +28,18 @@ class Dithering : public ::testing::TestWithParam<const char*> {
     // all.
     void SetUp() override {
         const bool lamps = std::string(GetParam()) == "LocalLights";
-        reference_ = draw({lamps ? "steps=128" : "steps=512", "dither=none", "blur=none"});
+        reference_ = draw({lamps ? "steps=128" : "steps=512", "noise=none", "filter=none"});
     }
     TemporaryFolder folder_;
     Image reference_;
 };
 
 TEST_P(Dithering, EightBayerSamplesWithBlurBeatTheAlternatives) {
-    const double bayer = rmse({"steps=8", "dither=bayer", "dither_size=8", "blur=bilateral"});
-    const double white = rmse({"steps=8", "dither=white", "dither_size=8", "blur=bilateral"});
+    const double bayer = rmse({"steps=8", "noise=bayer", "noise_size=8", "filter=gaussian15"});
+    const double white = rmse({"steps=8", "noise=white_tile", "noise_size=8", "filter=gaussian15"});
     EXPECT_LT(bayer, white);
     if (std::string(GetParam()) != "LocalLights") {
-        const double undithered = rmse({"steps=32", "dither=none", "blur=none"});
+        const double undithered = rmse({"steps=32", "noise=none", "filter=none"});
         EXPECT_LT(bayer, undithered);
     }
 }

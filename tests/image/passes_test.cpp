@@ -59,8 +59,8 @@ class Passes : public ::testing::Test {
     TemporaryFolder folder_;
 };
 
-const std::vector<std::string> all_but_injection{"volumetrics/march", "volumetrics/blur_horizontal",
-                                                 "volumetrics/blur_vertical", "volumetrics/composite"};
+const std::vector<std::string> all_but_injection{"volumetrics/march", "volumetrics/filter_horizontal",
+                                                 "volumetrics/filter_vertical", "volumetrics/composite"};
 
 TEST_F(Passes, NoMediumIsBitIdenticalToVolumetricsOff) {
     const SceneSpec spec{.sun = true, .lamps = {lamp}};
@@ -114,8 +114,8 @@ TEST_F(Passes, LocalMediumIsInjectedOnlyInView) {
     EXPECT_THAT(with_prefix(behind, "volumetrics/"), UnorderedElementsAreArray({"volumetrics/sun_volume"}));
 }
 
-TEST_F(Passes, NoBlurNoBlurPasses) {
-    const Frame frame = draw({.sun = true, .media = global_medium}, {"--set", "blur=none"});
+TEST_F(Passes, NoFilterNoFilterPasses) {
+    const Frame frame = draw({.sun = true, .media = global_medium}, {"--set", "filter=none"});
     EXPECT_THAT(with_prefix(frame, "volumetrics/"),
                 UnorderedElementsAreArray({"volumetrics/march", "volumetrics/composite"}));
 }

@@ -83,7 +83,7 @@ TEST_F(ReferenceCommand, ThreadsDoNotShow) {
 // Without a sun the sky is black and shadows are of a lamp above an open floor: what is left are surfaces, one lamp
 // in a homogeneous medium, and the engine's approximation of both.
 TEST_F(ReferenceCommand, IsThePictureThatRenderDraws) {
-    const std::vector<std::string> exact{"--set", "steps=256", "--set", "blur=none", "--set", "dither=none"};
+    const std::vector<std::string> exact{"--set", "steps=256", "--set", "filter=none", "--set", "noise=none"};
     EXPECT_LT(relative_rmse(picture("render", exact), picture("reference")), 0.02);
     const auto layer = [&](const std::string& command, const std::string& name) {
         std::vector<std::string> options = command == "render" ? exact : std::vector<std::string>{};

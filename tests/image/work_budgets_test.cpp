@@ -173,19 +173,19 @@ TEST_F(ClosedWork, LocalMediaAreInjectedOnceAFroxelAndFetchedTwiceASample) {
     EXPECT_EQ(count("volumetrics/inject_media", "medium_samples"), 2 * 40 * 24 * 10);
 }
 
-TEST_F(ClosedWork, BlurAndCompositeFetchWhatTheirFiltersSay) {
+TEST_F(ClosedWork, FilterAndCompositeFetchWhatTheirFiltersSay) {
     // 15 taps of scattering; bilateral: and of depth; a medium that colours light: and of transmittance.
     struct Case {
         const std::string& medium;
-        const char* blur;
+        std::vector<std::string> filter;
         int textures, composite;
     };
-    for (const Case& c : {Case{thin, "blur=gaussian", 1, 1}, Case{thin, "blur=bilateral", 2, 1},
-                          Case{colored, "blur=bilateral", 3, 2}}) {
-        march({.sun = true, .media = "[" + c.medium + "]"}, on_the_floor, {c.blur});
-        for (const char* pass : {"volumetrics/blur_horizontal", "volumetrics/blur_vertical"})
-            EXPECT_EQ(count(pass, "texture_fetches"), pixels * 15 * c.textures) << c.blur;
-        EXPECT_EQ(count("volumetrics/composite", "texture_fetches"), pixels * c.composite) << c.blur;
+    for (const Case& c : {Case{thin, {"filter_depth=none"}, 1, 1}, Case{thin, {"filter_depth=relative"}, 2, 1},
+                          Case{colored, {"filter_depth=relative"}, 3, 2}}) {
+        march({.sun = true, .media = "[" + c.medium + "]"}, on_the_floor, c.filter);
+        for (const char* pass : {"volumetrics/filter_horizontal", "volumetrics/filter_vertical"})
+            EXPECT_EQ(count(pass, "texture_fetches"), pixels * 15 * c.textures) << c.filter.back();
+        EXPECT_EQ(count("volumetrics/composite", "texture_fetches"), pixels * c.composite) << c.filter.back();
     }
 }
 

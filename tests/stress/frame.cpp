@@ -41,7 +41,7 @@ Structure draw_structure(Random& random) {
     if (random.chance(s.comparable ? 1 : 0.7)) s.options.volumetrics.technique = volumetrics::Technique::ray_march;
     if (s.comparable) {
         s.options.render.shadows = false;
-        s.options.volumetrics.blur = volumetrics::Blur::none;
+        s.options.volumetrics.filter = volumetrics::Filter::none;
     }
     return s;
 }

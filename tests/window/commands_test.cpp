@@ -53,7 +53,7 @@ TEST(List, EverySettingHasARangeThatItsDefaultKeeps) {
     EXPECT_NE(result.out.find("steps"), std::string::npos);
     EXPECT_NE(result.out.find("[none, white, bayer]"), std::string::npos);
     const CommandResult markdown = run_tyndall({"list", "settings", "--markdown"});
-    EXPECT_NE(markdown.out.find("| `blur` |"), std::string::npos);
+    EXPECT_NE(markdown.out.find("| `filter` |"), std::string::npos);
     EXPECT_EQ(run_tyndall({"list"}).exit_code, 2);
 }
 
@@ -118,13 +118,13 @@ class Commands : public ::testing::Test {
 TEST_F(Commands, RenderWritesStatistics) {
     const CommandResult result =
         run_tyndall({"render", path("scene.gltf"), "-o", path("out.png"), "--size", "64x36", "--preset", "fast",
-                     "--set", "dither_size=4", "--stats", path("stats.json")});
+                     "--set", "noise_size=4", "--stats", path("stats.json")});
     ASSERT_EQ(result.exit_code, 0) << result.err;
     EXPECT_EQ(read_image(path("out.png")).size, glm::ivec2(64, 36));
     const json stats = json::parse(read(path("stats.json")));
     EXPECT_EQ(stats.at("size"), json({64, 36}));
     EXPECT_EQ(stats.at("settings").at("steps"), 4);        // of the preset
-    EXPECT_EQ(stats.at("settings").at("dither_size"), 4);  // --set comes after the preset
+    EXPECT_EQ(stats.at("settings").at("noise_size"), 4);  // --set comes after the preset
     EXPECT_EQ(stats.at("facts").at("has_sun"), true);
     EXPECT_EQ(stats.at("facts").at("has_global_medium"), true);
     EXPECT_EQ(stats.at("facts").at("has_local_media"), false);
@@ -142,13 +142,13 @@ TEST_F(Commands, RenderWritesStatistics) {
 }
 
 TEST_F(Commands, APresetOfAFileAppliesAndItsUnknownKeysDoNot) {
-    std::ofstream(folder_ / "mine.json") << R"({"steps": 3, "blur": "none"})";
+    std::ofstream(folder_ / "mine.json") << R"({"steps": 3, "filter": "none"})";
     const CommandResult result = run_tyndall({"render", path("scene.gltf"), "-o", path("out.png"), "--size", "16x9",
                                               "--preset", path("mine.json"), "--stats", path("stats.json")});
     ASSERT_EQ(result.exit_code, 0) << result.err;
     const json settings = json::parse(read(path("stats.json"))).at("settings");
     EXPECT_EQ(settings.at("steps"), 3);
-    EXPECT_EQ(settings.at("blur"), "none");
+    EXPECT_EQ(settings.at("filter"), "none");
 }
 
 const std::set<std::string> places{"LocalPM", "Close", "LocalLights", "Sun", "Depth", "Balance"};
@@ -175,7 +175,7 @@ void check_flythrough(const std::filesystem::path& folder, std::size_t frames) {
         const double deviation = std::stod(row[3]), variance = std::stod(row[4]);
         EXPECT_NEAR(deviation * deviation, variance, 1e-3 + 1e-3 * variance) << summary[i];
     }
-    for (const char* part : {"Ray march", "Blur", "Composite", "Whole frame"}) EXPECT_TRUE(parts.contains(part));
+    for (const char* part : {"Ray march", "Filter", "Composite", "Whole frame"}) EXPECT_TRUE(parts.contains(part));
     const std::string markdown = read(folder / "summary.md");
     EXPECT_NE(markdown.find("| part | frames | mean (ms) | standard deviation (ms) | variance (ms²) |"),
               std::string::npos);

@@ -113,25 +113,25 @@ TEST(Window, WalkLookAndTheDebugUi) {
     game.key("Escape");
     game.frames(1);
 
-    // V brings the fog back; then the debug UI takes the blur and the dither away.
+    // V brings the fog back; then the debug UI takes the filter and the noise away.
     game.key("v");
     game.state_when([](const auto& s) { return setting(s, "technique") == "ray_march"; }, "technique ray_march");
     game.key("F1");
     game.frames(2);
     const GameProcess::State blurred = game.state(), same = game.state();
-    ASSERT_EQ(setting(blurred, "blur"), "bilateral");
-    ASSERT_EQ(setting(blurred, "dither"), "bayer");
+    ASSERT_EQ(setting(blurred, "filter"), "gaussian15");
+    ASSERT_EQ(setting(blurred, "noise"), "bayer");
     EXPECT_GT(mean_difference(blurred.picture, turned.picture), 0.01) << "fog";
     const double noise = mean_difference(blurred.picture, same.picture);
 
-    choose(game, "blur", 0);
+    choose(game, "filter", 0);
     const GameProcess::State grainy = game.state();
-    EXPECT_EQ(setting(grainy, "blur"), "none");
+    EXPECT_EQ(setting(grainy, "filter"), "none");
     EXPECT_GT(mean_difference(grainy.picture, blurred.picture), 2 * noise + 0.5 / 255);
 
-    choose(game, "dither", 0);
+    choose(game, "noise", 0);
     const GameProcess::State banded = game.state();
-    EXPECT_EQ(setting(banded, "dither"), "none");
+    EXPECT_EQ(setting(banded, "noise"), "none");
     EXPECT_GT(mean_difference(banded.picture, grainy.picture), 2 * noise + 0.5 / 255);
 
     game.key("Escape");  // the debug window

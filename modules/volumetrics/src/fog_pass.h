@@ -4,7 +4,7 @@
 
 namespace tyndall::volumetrics {
 
-/// A full-screen pass that reads nothing but depth (unit 0), the dither tile, sun, ambient light, the global media
+/// A full-screen pass that reads nothing but depth (unit 0), the noise tile, sun, ambient light, the global media
 /// and `visibility` (unit 1), if there is one. `targets` are what it draws to.
 struct FogPass {
     const char* name;

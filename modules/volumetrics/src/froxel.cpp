@@ -22,10 +22,11 @@ Fog add_froxel_fog(PassList& passes, const PassResources& resources, const Input
     return {.columns = columns, .radiance = accumulated.radiance, .optical_depth = accumulated.optical_depth};
 }
 
-Outputs add_froxel(PassList& passes, const PassResources& resources, const Inputs& inputs, const Settings& settings,
-                   const FrameMedia& media, const FroxelMedia& froxels, FroxelHistory& history) {
+Outputs add_froxel(PassList& passes, const PassResources& resources, const Inputs& inputs, const Inputs& low,
+                   const Settings& settings, const FrameMedia& media, const FroxelMedia& froxels,
+                   FroxelHistory& history) {
     const Fog fog = add_froxel_fog(passes, resources, inputs, settings, media, froxels, history);
-    Outputs outputs = add_froxel_apply(passes, resources, inputs, media, fog);
+    Outputs outputs = add_froxel_apply(passes, resources, low, media, fog);
     outputs.fog = fog;
     return outputs;
 }

@@ -8,6 +8,8 @@
 
 #include "engine/core/error.h"
 #include "froxel_tiles.h"
+#include "noise.h"
+#include "reconstruction.h"
 #include "shaders/lib/glm_subset.h"
 
 TYNDALL_GLSL_BEGIN
@@ -166,12 +168,14 @@ bool has_local_media(Technique technique) {
     return technique != Technique::analytic_fog && technique != Technique::radial_shafts;
 }
 
-void set_view(const Inputs& inputs, shared::VolumetricsData& data) {
+void set_view(const Inputs& inputs, const Settings& settings, shared::VolumetricsData& data) {
     data.inverse_projection = glm::inverse(inputs.projection);
     data.inverse_view = glm::inverse(inputs.view);
     data.eye = {inputs.eye, inputs.znear};
     const glm::vec2 size = inputs.size;
     data.viewport = {size, 1.0F / size};
+    const int factor = resolution_factor(settings);
+    data.target = {(inputs.size + factor - 1) / factor, static_cast<float>(factor) / size};
 }
 
 unsigned phase_option(PhaseFunction phase) {
@@ -199,11 +203,13 @@ FrameMedia gather_media(const Inputs& inputs, const Settings& settings) {
         if (settings.light_transmittance && (inputs.has_sun || inputs.has_lamps)) add_attenuating(inputs, media);
     }
     if (media.empty() && media.attenuating.empty()) return media;
-    set_view(inputs, media.data);
+    set_view(inputs, settings, media.data);
     set_stepping(settings, media.data);
     media.data.march.w = media.chromatic && !media.local.empty() ? 1.0F : 0.0F;
     media.data.counts.z = static_cast<unsigned>(settings.steps);
-    media.data.counts.w = settings.dither == Dither::none ? 1U : static_cast<unsigned>(settings.dither_size);
+    media.data.counts.w = static_cast<unsigned>(noise_side(settings));
+    media.data.noise = {static_cast<unsigned>(settings.noise), static_cast<unsigned>(settings.noise_time),
+                        inputs.frame_index, 0};
     media.data.options.x = phase_option(settings.phase);
     media.data.phase_back = {settings.phase_back_anisotropy, settings.phase_back_weight, 0, 0};
     media.data.options.y = settings.light_transmittance ? 1U : 0U;

@@ -16,12 +16,13 @@ struct FroxelMedia {
 };
 
 class FroxelHistory;
+class TemporalHistory;
 
 /// What all passes of one frame share.
 struct PassResources {
     ShaderLibrary& shaders;
     gl::Sampler nearest = {}, linear = {};
-    gl::Buffer uniforms = {}, local_media = {}, media_tiles = {}, dither = {}, unfinished = {}, sprites = {};
+    gl::Buffer uniforms = {}, local_media = {}, media_tiles = {}, noise = {}, unfinished = {}, sprites = {};
     LightVolumes light_volumes = {};
 };
 
@@ -33,8 +34,8 @@ struct PassResources {
 [[nodiscard]] Fog add_froxel_fog(PassList& passes, const PassResources& resources, const Inputs& inputs,
                                  const Settings& settings, const FrameMedia& media, const FroxelMedia& froxels,
                                  FroxelHistory& history);
-/// The same, interpolated at each pixel's depth; no blur follows.
-[[nodiscard]] Outputs add_froxel(PassList& passes, const PassResources& resources, const Inputs& inputs,
+/// The same, interpolated at each pixel's depth of `low`, see reconstruction.h.
+[[nodiscard]] Outputs add_froxel(PassList& passes, const PassResources& resources, const Inputs& inputs, const Inputs& low,
                                  const Settings& settings, const FrameMedia& media, const FroxelMedia& froxels,
                                  FroxelHistory& history);
 /// The approaches that froxels are compared with. Each says in its file what it models and what it cannot.
@@ -47,15 +48,13 @@ struct PassResources {
 [[nodiscard]] Outputs add_analytic_fog(PassList& passes, PassResources& resources, const Inputs& inputs,
                                        const Settings& settings, const FrameMedia& media);
 [[nodiscard]] Outputs add_radial_shafts(PassList& passes, PassResources& resources, const Inputs& inputs,
-                                        const Settings& settings, const FrameMedia& media);
+                                        const Settings& settings, const FrameMedia& media, TemporalHistory& history);
 /// Value of the axis HEIGHT_MEDIA.
 [[nodiscard]] int height_media_axis(const FrameMedia& media);
 
 /// Brute force in RGBA32F; `transmittance` is always given.
 [[nodiscard]] Outputs add_reference(PassList& passes, PassResources& resources, const Inputs& inputs,
                                     const Settings& settings, const FrameMedia& media);
-[[nodiscard]] Outputs add_blur(PassList& passes, const PassResources& resources, const Inputs& inputs,
-                               const Settings& settings, const Outputs& source);
 [[nodiscard]] TextureRef add_composite(PassList& passes, const PassResources& resources, const Outputs& outputs,
                                        TextureRef color, bool count_work);
 

@@ -1,4 +1,5 @@
 #include "fog_pass.h"
+#include "reconstruction.h"
 
 namespace tyndall::volumetrics {
 namespace {
@@ -24,35 +25,32 @@ const ProgramRegistry::Registration registration(program);
 
 /// R16F: the sun's share over each pixel's ray.
 TextureRef add_visibility(PassList& passes, const PassResources& resources, const Inputs& inputs,
-                          const Settings& settings, const FrameMedia& media) {
+                          const Settings& settings, const FrameMedia& media, TemporalHistory& history) {
     Permutation permutation = fog_permutation(inputs, media);
     permutation["INTERVALS"] = settings.radial_occlusion == RadialOcclusion::intervals;
+    const Inputs low = add_depth_downsample(passes, resources, inputs, settings);
     Outputs visibility;
     visibility.scattering =
-        passes.create("volumetrics/radial_visibility", {.format = GL_R16F, .size = {inputs.size, 1}});
+        passes.create("volumetrics/radial_visibility", {.format = GL_R16F, .size = {low.size, 1}});
     const gl::Program& shader = resources.shaders.get(visibility_program, permutation);
-    visibility = add_fog_pass(passes, resources, inputs, {"volumetrics/radial_visibility", shader, {}, visibility});
-    if (settings.blur != Blur::none) return add_blur(passes, resources, inputs, settings, visibility).scattering;
-    return visibility.scattering;
-}
-
-void skip_blur(PassList& passes, const std::string& reason) {
-    for (const char* name : {"volumetrics/blur_horizontal", "volumetrics/blur_vertical"}) passes.skip(name, reason);
+    visibility = add_fog_pass(passes, resources, low, {"volumetrics/radial_visibility", shader, {}, visibility});
+    return add_reconstruction(passes, resources, inputs, low, settings, visibility, history).scattering;
 }
 
 }  // namespace
 
 Outputs add_radial_shafts(PassList& passes, PassResources& resources, const Inputs& inputs,
-                          const Settings& settings, const FrameMedia& media) {
+                          const Settings& settings, const FrameMedia& media, TemporalHistory& history) {
     if (!inputs.has_sun) {
-        for (const char* name : {"volumetrics/radial_visibility", "volumetrics/radial_shafts"})
+        for (const char* name :
+             {"volumetrics/depth_downsample", "volumetrics/radial_visibility", "volumetrics/filter_horizontal",
+              "volumetrics/filter_vertical", "volumetrics/upsample", "volumetrics/temporal",
+              "volumetrics/radial_shafts"})
             passes.skip(name, "no sun");
-        skip_blur(passes, "no sun");
         return add_analytic_fog(passes, resources, inputs, settings, media);
     }
     passes.skip("volumetrics/analytic_fog", "there is a sun");
-    if (settings.blur == Blur::none) skip_blur(passes, "blur is none");
-    const TextureRef visibility = add_visibility(passes, resources, inputs, settings, media);
+    const TextureRef visibility = add_visibility(passes, resources, inputs, settings, media, history);
     const gl::Program& shader = resources.shaders.get(program, fog_permutation(inputs, media));
     return add_fog_pass(passes, resources, inputs,
                         {"volumetrics/radial_shafts", shader, visibility, fog_targets(passes, inputs, media)});

@@ -67,30 +67,96 @@ const SettingsTable& settings_table() {
                   {"phase_back_weight", "Back lobe weight",
                    "Share of the light that double_henyey_greenstein scatters in its backward lobe."},
                   0, 1)
-            .choice(&S::dither,
-                    {"dither", "Dither",
-                     "Where in its segments a pixel samples: the middle, white noise, or the Bayer matrix; costs "
-                     "nothing."},
-                    {"none", "white", "bayer"}, Effect::uniform)
-            .integer_of(&S::dither_size,
-                        {"dither_size", "Dither size",
-                         "Side of the dither tile; a larger tile has more offsets and needs a wider blur.", "px"},
-                        {2, 4, 8, 16}, Effect::uniform)
-            .choice(
-                &S::blur,
-                {"blur", "Blur",
-                 "Filter that removes dither noise: none, a 15-tap Gaussian, or one that stops at depth edges."},
-                {"none", "gaussian", "bilateral"}, Effect::permutation)
-            .real(&S::blur_sigma,
-                  {"blur_sigma", "Blur sigma", "Standard deviation of the blur; beyond 3.5 the 15 taps cut it off.",
-                   "px"},
+            .choice(&S::noise,
+                    {"noise", "Noise",
+                     "Where in its segments a pixel samples: the middle; the Bayer matrix; white noise, of each pixel or "
+                     "of a shuffled tile; interleaved gradient noise; or textures of noise: blue, blue in time too "
+                     "(stbn), or made for the filter that follows (fast)."},
+                    {"none", "bayer", "white", "white_tile", "ign", "blue", "stbn", "fast"}, Effect::resource)
+            .integer_of(&S::noise_size,
+                        {"noise_size", "Noise size",
+                         "Side of the tile of bayer and white_tile; a larger one has more offsets and needs a wider "
+                         "filter.",
+                         "px"},
+                        {2, 4, 8, 16}, Effect::resource)
+            .choice(&S::noise_time,
+                    {"noise_time", "Noise in time",
+                     "How the noise changes from frame to frame, for what averages frames: not at all; in its own way "
+                     "(the next slice of a texture, other white noise, a shifted gradient; a tile by the golden ratio); "
+                     "all offsets by the golden ratio; or all pixels by the R2 sequence."},
+                    {"fixed", "own", "golden_ratio", "r2"}, Effect::uniform)
+            .choice(&S::fast_space, {"fast_space", "FAST in space", "Spatial filter that the noise fast was made for."},
+                    {"gaussian1", "box3", "box5", "binomial3", "binomial5"}, Effect::resource)
+            .choice(&S::fast_time,
+                    {"fast_time", "FAST in time",
+                     "Temporal filter that the noise fast was made for: an exponential mean of weight 0.1, or the mean "
+                     "of 8 frames."},
+                    {"ema", "box8"}, Effect::resource)
+            .choice(&S::filter,
+                    {"filter", "Filter",
+                     "Spatial filter that takes noise away; all are separable, gaussian15 of chosen width in 15 taps a "
+                     "direction, uniform9 the mean of 9."},
+                    {"none", "box3", "box5", "gaussian1", "binomial3", "binomial5", "gaussian15", "uniform9"},
+                    Effect::permutation)
+            .real(&S::filter_sigma,
+                  {"filter_sigma", "Filter sigma",
+                   "Standard deviation of the filter gaussian15; beyond 3.5 the 15 taps cut it off.", "px"},
                   0.3, 7)
-            .real(
-                &S::blur_depth_falloff,
-                {"blur_depth_falloff", "Blur depth falloff",
-                 "How fast the bilateral weight falls with relative depth difference: it is 0 from a difference of "
-                 "1 / falloff on."},
-                0, 100)
+            .choice(&S::filter_depth,
+                    {"filter_depth", "Filter and depth",
+                     "Whether the filter stops at depth edges: not at all; where depth differs from the pixel's; or "
+                     "where it differs from the plane that the pixel lies in, so that grazing floors are filtered."},
+                    {"none", "relative", "plane"}, Effect::permutation)
+            .real(&S::filter_depth_falloff,
+                  {"filter_depth_falloff", "Filter depth falloff",
+                   "How fast the weight falls with relative depth difference: it is 0 from a difference of 1 / falloff "
+                   "on. Of the filter and of bilateral up-sampling."},
+                  0, 100)
+            .choice(&S::resolution,
+                    {"resolution", "Resolution",
+                     "Pixels along each side that ray_march, radial_shafts and the application of froxels are computed "
+                     "at; time falls with the square."},
+                    {"full", "half", "quarter"}, Effect::resource)
+            .choice(&S::resolution_depth,
+                    {"resolution_depth", "Resolution depth",
+                     "Which depth of a block stands for it at a lower resolution: the nearest, the farthest, or both in "
+                     "turn like a checkerboard."},
+                    {"min", "max", "checkerboard"}, Effect::uniform)
+            .choice(&S::upsample,
+                    {"upsample", "Up-sampling",
+                     "From lower to full resolution: the nearest pixel; bilinear; bilinear without pixels of other "
+                     "depths; or the pixel of the nearest depth, where depths differ."},
+                    {"nearest", "bilinear", "bilateral", "nearest_depth"}, Effect::uniform)
+            .choice(&S::temporal,
+                    {"temporal", "Temporal filter",
+                     "Mean over frames: none; of the same pixel, ugly in motion; an exponential mean along reprojected "
+                     "motion; the same, less of it the farther the surface found there is from this one; or a mean that "
+                     "counts its frames."},
+                    {"off", "blend", "ema", "acceptance", "accumulate"}, Effect::resource)
+            .choice(&S::temporal_place,
+                    {"temporal_place", "Temporal place",
+                     "Before the spatial filter and up-sampling, or after them."},
+                    {"before", "after"}, Effect::resource)
+            .real(&S::temporal_weight,
+                  {"temporal_weight", "Temporal weight", "Least weight of the new frame, but for accumulate."}, 0.01, 1)
+            .real(&S::temporal_scale,
+                  {"temporal_scale", "Temporal scale",
+                   "Of acceptance and accumulate: what is kept falls by exp(-distance * scale) between this surface and "
+                   "the one seen there before; the distance is relative to view depth.",
+                   ""},
+                  0, 1000)
+            .integer(&S::temporal_frames,
+                     {"temporal_frames", "Temporal frames", "Most frames that accumulate counts."}, 1, 256,
+                     Effect::uniform, Scale::logarithmic)
+            .boolean(&S::temporal_clip,
+                     {"temporal_clip", "Temporal clip",
+                      "Clips what is kept to the colours around the pixel in the new frame: changes show at once, and "
+                      "noise stays."},
+                     Effect::uniform)
+            .boolean(&S::temporal_reject,
+                     {"temporal_reject", "Temporal rejection",
+                      "Forgets what is kept where lights or media changed."},
+                     Effect::uniform)
             .integer(&S::froxels_x,
                      {"froxels_x", "Froxels across",
                       "Columns of froxels over the width: local media, and all light of the technique froxel; "

@@ -7,13 +7,15 @@
 #include <string_view>
 #include <tuple>
 
-#include "dither.h"
 #include "engine/core/check.h"
 #include "froxel_history.h"
 #include "froxel_passes.h"
 #include "froxel_tiles.h"
+#include "noise.h"
 #include "passes.h"
+#include "reconstruction.h"
 #include "shaders/shared/bindings.h"
+#include "temporal.h"
 
 namespace tyndall::volumetrics {
 namespace {
@@ -22,13 +24,18 @@ namespace {
 const std::map<Technique, std::vector<const char*>>& passes_of() {
     static const std::map<Technique, std::vector<const char*>> names{
         {Technique::ray_march,
-         {"volumetrics/inject_media", "volumetrics/march", "volumetrics/blur_horizontal",
-          "volumetrics/blur_vertical"}},
-        {Technique::froxel, {"volumetrics/inject_media", "volumetrics/froxel_history"}},
+         {"volumetrics/inject_media", "volumetrics/depth_downsample", "volumetrics/march",
+          "volumetrics/filter_horizontal", "volumetrics/filter_vertical", "volumetrics/upsample",
+          "volumetrics/temporal"}},
+        {Technique::froxel,
+         {"volumetrics/inject_media", "volumetrics/froxel_history", "volumetrics/depth_downsample",
+          "volumetrics/filter_horizontal", "volumetrics/filter_vertical", "volumetrics/upsample",
+          "volumetrics/temporal"}},
         {Technique::analytic_fog, {"volumetrics/analytic_fog"}},
         {Technique::radial_shafts,
          {"volumetrics/analytic_fog", "volumetrics/radial_visibility", "volumetrics/radial_shafts",
-          "volumetrics/blur_horizontal", "volumetrics/blur_vertical"}},
+          "volumetrics/depth_downsample", "volumetrics/filter_horizontal", "volumetrics/filter_vertical",
+          "volumetrics/upsample", "volumetrics/temporal"}},
         {Technique::billboards, {"volumetrics/billboards", "volumetrics/billboards_resolve"}},
         {Technique::shaft_geometry,
          {"volumetrics/shaft_mesh", "volumetrics/shaft_faces", "volumetrics/shaft_resolve"}},
@@ -64,8 +71,9 @@ struct Volumetrics::Impl {
     PassResources resources;
     FrameMedia media;
     FroxelHistory froxel_history;
+    TemporalHistory temporal_history;
     std::optional<FroxelMedia> local_froxels;  ///< of this frame, once they are made
-    std::tuple<Dither, int> dither_key{};
+    std::tuple<Noise, int> noise_key{};
     bool count_work = false;
     bool light_passes_added = false;  ///< since `prepare`
 
@@ -74,7 +82,7 @@ struct Volumetrics::Impl {
         resources.uniforms = {};
         resources.local_media = {};
         resources.media_tiles = {};
-        resources.dither = {};
+        resources.noise = {};
         resources.unfinished = {};
         resources.sprites = {};
     }
@@ -103,11 +111,9 @@ struct Volumetrics::Impl {
 
     Outputs add_ray_march(PassList& passes, const Inputs& inputs, const Settings& settings) {
         const FroxelMedia froxels = add_local_media(passes, inputs, settings);
-        const Outputs outputs = add_march(passes, resources, inputs, settings, media, froxels);
-        if (settings.blur != Blur::none) return add_blur(passes, resources, inputs, settings, outputs);
-        for (const char* name : {"volumetrics/blur_horizontal", "volumetrics/blur_vertical"})
-            passes.skip(name, "blur is none");
-        return outputs;
+        const Inputs low = add_depth_downsample(passes, resources, inputs, settings);
+        const Outputs sampled = add_march(passes, resources, low, settings, media, froxels);
+        return add_reconstruction(passes, resources, inputs, low, settings, sampled, temporal_history);
     }
 
     Outputs add_technique(PassList& passes, const Inputs& inputs, const Settings& settings) {
@@ -118,7 +124,14 @@ struct Volumetrics::Impl {
                 return add_ray_march(passes, inputs, settings);
             case Technique::froxel: {
                 const FroxelMedia froxels = add_local_media(passes, inputs, settings);
-                return add_froxel(passes, resources, inputs, settings, media, froxels, froxel_history);
+                const Inputs low = add_depth_downsample(passes, resources, inputs, settings);
+                const Outputs applied = add_froxel(passes, resources, inputs, low, settings, media, froxels, froxel_history);
+                Settings unfiltered = settings;  // there is no noise between pixels
+                unfiltered.filter = Filter::none;
+                Outputs outputs =
+                    add_reconstruction(passes, resources, inputs, low, unfiltered, applied, temporal_history);
+                outputs.fog = applied.fog;
+                return outputs;
             }
             case Technique::billboards:
                 return add_billboards(passes, resources, inputs, settings, media);
@@ -129,7 +142,7 @@ struct Volumetrics::Impl {
             case Technique::analytic_fog:
                 return add_analytic_fog(passes, resources, inputs, settings, media);
             case Technique::radial_shafts:
-                return add_radial_shafts(passes, resources, inputs, settings, media);
+                return add_radial_shafts(passes, resources, inputs, settings, media, temporal_history);
             case Technique::reference:
                 return add_reference(passes, resources, inputs, settings, media);
         }
@@ -158,11 +171,11 @@ struct Volumetrics::Impl {
             resources.unfinished = gl::Buffer(16, "volumetrics unfinished lamps");
         if (settings.technique != Technique::billboards && settings.technique != Technique::particles)
             resources.sprites = {};
-        const std::tuple key(settings.dither, settings.dither == Dither::none ? 1 : settings.dither_size);
-        if (!resources.dither || key != dither_key) {
-            const std::vector<float> tile = dither_tile(settings.dither, settings.dither_size);
-            resources.dither = gl::Buffer::of(std::span<const float>(tile), "volumetrics dither tile");
-            dither_key = key;
+        const std::tuple key(settings.noise, noise_side(settings));
+        if (!resources.noise || key != noise_key) {
+            const std::vector<float> tile = noise_tile(settings.noise, settings.noise_size);
+            resources.noise = gl::Buffer::of(std::span<const float>(tile), "volumetrics noise tile");
+            noise_key = key;
         }
     }
 };
@@ -195,6 +208,8 @@ Outputs Volumetrics::add_passes(PassList& passes, const Inputs& inputs, const Se
     const FrameMedia& media = impl_->media;
     impl_->count_work = inputs.count_work;
     if (!impl_->light_passes_added) add_light_passes(passes, inputs, settings);
+    if (settings.temporal == Temporal::off || media.empty() || !can_be_reconstructed(settings.technique))
+        impl_->temporal_history.release();
     if (!keeps_history(inputs, settings, media)) impl_->froxel_history.release();
     if (settings.technique == Technique::off || media.empty()) {
         skip_all(passes, settings.technique == Technique::off ? "technique is off" : "no medium in view");
@@ -226,8 +241,8 @@ void Volumetrics::bind_uniforms() const {
 
 std::size_t Volumetrics::persistent_bytes() const {
     const PassResources& r = impl_->resources;
-    return r.uniforms.size() + r.local_media.size() + r.media_tiles.size() + r.dither.size() + r.sprites.size() +
-           impl_->froxel_history.bytes() +
+    return r.uniforms.size() + r.local_media.size() + r.media_tiles.size() + r.noise.size() + r.sprites.size() +
+           impl_->froxel_history.bytes() + impl_->temporal_history.bytes() +
            r.light_volumes.bytes();
 }
 

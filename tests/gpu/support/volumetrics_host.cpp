@@ -209,8 +209,8 @@ Frame StubHost::render(const Settings& settings) {
 Settings plain_settings(int steps) {
     Settings settings;
     settings.steps = steps;
-    settings.dither = volumetrics::Dither::none;
-    settings.blur = volumetrics::Blur::none;
+    settings.noise = volumetrics::Noise::none;
+    settings.filter = volumetrics::Filter::none;
     return settings;
 }
 

@@ -216,8 +216,8 @@ TEST_F(VolumetricsLamps, VisibilityIsSampledWhereTheLightIs) {
     host.lights = {point_light({1, 0.3F, -9}, 1000)};
     host.shadows = 1;
     Settings settings = lamp_settings(1, volumetrics::LampIntegration::segment);
-    settings.dither = volumetrics::Dither::bayer;
-    settings.dither_size = 16;
+    settings.noise = volumetrics::Noise::bayer;
+    settings.noise_size = 16;
     const auto mean = [&](const Frame& frame) {
         double sum = 0;
         for (int y = 0; y < 16; ++y)

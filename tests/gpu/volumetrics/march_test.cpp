@@ -94,9 +94,9 @@ TEST_P(VolumetricsClosedForm, SunWithoutOccludersFollowsTheClosedForm) {
         for (const float sigma : {1e-6F, 0.01F, 0.3F}) {
             host.global = {
                 {.sigma_s = glm::vec3(sigma), .sigma_a = glm::vec3(0, sigma, 2 * sigma), .anisotropy = g}};
-            for (const auto dither : {volumetrics::Dither::none, volumetrics::Dither::bayer}) {
+            for (const auto dither : {volumetrics::Noise::none, volumetrics::Noise::bayer}) {
                 Settings settings = plain_settings(8);
-                settings.dither = dither;
+                settings.noise = dither;
                 const Frame frame = host.render(settings);
                 for (int c = 0; c < 3; ++c) {
                     const double sigma_t = sigma * double(c + 1);
@@ -251,9 +251,9 @@ TEST_F(VolumetricsMarch, DitherMovesTheSamplesOverTheWholeStep) {
     host.global = {{.sigma_s = glm::vec3(1e-4F)}};
     const Frame lit = host.render(plain_settings(1));
     host.shadows = 1;
-    for (const auto dither : {volumetrics::Dither::bayer, volumetrics::Dither::white}) {
+    for (const auto dither : {volumetrics::Noise::bayer, volumetrics::Noise::white_tile}) {
         Settings settings = plain_settings(1);
-        settings.dither = dither;
+        settings.noise = dither;
         const Frame frame = host.render(settings);
         int visible = 0;
         for (int y = 0; y < 8; ++y)
@@ -297,7 +297,7 @@ TEST_P(VolumetricsClosedForm, ExtremeParametersStayFiniteAndInRange) {
                          {volumetrics::LampIntegration::center, volumetrics::LampIntegration::segment}) {
                         Settings settings = plain_settings(1);
                         settings.lamp_integration = lamps;
-                        settings.blur = volumetrics::Blur::bilateral;
+                        settings.filter = volumetrics::Filter::gaussian15;
                         settings.froxels_x = settings.froxels_y = settings.froxels_z = 8;
                         const Frame frame = host.render(settings);
                         for (const float v : frame.scattering.pixels)

@@ -37,7 +37,7 @@ TEST_F(VolumetricsPasses, WithoutMediumNothingIsAddedOrHeld) {
         EXPECT_THAT(frame.live_passes, IsEmpty());
         EXPECT_THAT(frame.skipped,
                     UnorderedElementsAre(Key("volumetrics/inject_media"), Key("volumetrics/march"),
-                                         Key("volumetrics/blur_horizontal"), Key("volumetrics/blur_vertical"),
+                                         Key("volumetrics/filter_horizontal"), Key("volumetrics/filter_vertical"),
                                          Key("volumetrics/composite")));
         EXPECT_EQ(frame.persistent_bytes, 0U);
     }
@@ -56,16 +56,16 @@ TEST_F(VolumetricsPasses, TechniqueOffIsAsIfThereWereNoMedium) {
 TEST_F(VolumetricsPasses, EachPassIsThereWhenItIsNeeded) {
     host.global = {fog};
     Settings settings;
-    settings.blur = volumetrics::Blur::none;
+    settings.filter = volumetrics::Filter::none;
     EXPECT_THAT(host.render(settings).live_passes, ElementsAre("volumetrics/march"));
-    settings.blur = volumetrics::Blur::gaussian;
+    settings.filter = volumetrics::Filter::gaussian15;
     EXPECT_THAT(host.render(settings).live_passes,
-                ElementsAre("volumetrics/march", "volumetrics/blur_horizontal", "volumetrics/blur_vertical"));
+                ElementsAre("volumetrics/march", "volumetrics/filter_horizontal", "volumetrics/filter_vertical"));
     host.global.clear();
     host.local = {ball};
     EXPECT_THAT(host.render(settings).live_passes,
                 ElementsAre("volumetrics/froxel_columns", "volumetrics/inject_media", "volumetrics/march",
-                            "volumetrics/blur_horizontal", "volumetrics/blur_vertical"));
+                            "volumetrics/filter_horizontal", "volumetrics/filter_vertical"));
 }
 
 TEST_F(VolumetricsPasses, MoreHeightMediaThanTheBlockHoldsAreAnError) {
@@ -121,8 +121,8 @@ TEST_F(VolumetricsPasses, WorkIsCountedExactly) {
         EXPECT_EQ(work[int(gl::Work::texture_fetches)], pixels);
     }
     Settings settings = plain_settings(steps);
-    settings.blur = volumetrics::Blur::bilateral;
-    EXPECT_EQ(host.render(settings).work.at("volumetrics/blur_vertical")[int(gl::Work::texture_fetches)],
+    settings.filter = volumetrics::Filter::gaussian15;
+    EXPECT_EQ(host.render(settings).work.at("volumetrics/filter_vertical")[int(gl::Work::texture_fetches)],
               pixels * 30);
 }
 

@@ -257,10 +257,10 @@ TEST_F(RadialShafts, BlurTakesTheNoiseOfTheDitherAndLeavesTheFog) {
     host.view_depth = [](int, int) { return sky; };
     put_sun(0.2F, 0.9F);
     Settings s = settings(RadialOcclusion::intervals);
-    s.blur = volumetrics::Blur::bilateral;
+    s.filter = volumetrics::Filter::gaussian15;
     const Frame frame = host.render(s);
-    EXPECT_THAT(frame.live_passes, ElementsAre("volumetrics/radial_visibility", "volumetrics/blur_horizontal",
-                                               "volumetrics/blur_vertical", "volumetrics/radial_shafts"));
+    EXPECT_THAT(frame.live_passes, ElementsAre("volumetrics/radial_visibility", "volumetrics/filter_horizontal",
+                                               "volumetrics/filter_vertical", "volumetrics/radial_shafts"));
     // The fog's edge at the horizon stays as sharp as it is.
     EXPECT_EQ(frame.scattering.pixels, fog().scattering.pixels);
 }

@@ -7,7 +7,7 @@
 #include <random>
 
 #include "engine/core/error.h"
-#include "modules/volumetrics/src/dither.h"
+#include "modules/volumetrics/src/noise.h"
 #include "modules/volumetrics/src/froxel_tiles.h"
 
 namespace tyndall::volumetrics {
@@ -162,11 +162,11 @@ TEST(VolumetricsMedia, LiveTilesHoldWhichBoxesMeetWhichTiles) {
     EXPECT_EQ(next, live.size());
 }
 
-TEST(VolumetricsMedia, DitherTilesHoldEveryOffsetOnce) {
-    EXPECT_EQ(dither_tile(Dither::none, 8), std::vector<float>{0.5F});
-    for (const Dither dither : {Dither::white, Dither::bayer})
+TEST(VolumetricsMedia, NoiseTilesHoldEveryOffsetOnce) {
+    EXPECT_EQ(noise_tile(Noise::none, 8), std::vector<float>{0.5F});
+    for (const Noise noise : {Noise::white_tile, Noise::bayer})
         for (const int size : {2, 4, 8, 16}) {
-            std::vector<float> tile = dither_tile(dither, size);
+            std::vector<float> tile = noise_tile(noise, size);
             std::sort(tile.begin(), tile.end());
             ASSERT_EQ(tile.size(), std::size_t(size) * size);
             for (std::size_t i = 0; i < tile.size(); ++i)

@@ -19,7 +19,7 @@ TEST(VolumetricsSettings, TableHoldsTheDefaultsAndExplainsEveryRow) {
         EXPECT_FALSE(row.label.empty()) << row.key;
         EXPECT_TRUE(row.help.ends_with('.')) << row.key;
     }
-    EXPECT_EQ(keys.size(), 51U);  // one row for each member of Settings
+    EXPECT_EQ(keys.size(), 64U);  // one row for each member of Settings
 }
 
 TEST(VolumetricsSettings, NamesAreInEnumOrder) {
@@ -32,10 +32,10 @@ TEST(VolumetricsSettings, NamesAreInEnumOrder) {
     EXPECT_EQ(settings.lamp_integration, LampIntegration::center);
     set.set("stepping", "exponential");
     EXPECT_EQ(settings.stepping, Stepping::exponential);
-    set.set("dither", "white");
-    EXPECT_EQ(settings.dither, Dither::white);
-    set.set("blur", "gaussian");
-    EXPECT_EQ(settings.blur, Blur::gaussian);
+    set.set("noise", "white");
+    EXPECT_EQ(settings.noise, Noise::white);
+    set.set("filter", "box3");
+    EXPECT_EQ(settings.filter, Filter::box3);
     set.set("phase", "schlick");
     EXPECT_EQ(settings.phase, PhaseFunction::schlick);
     set.set("phase", "double_henyey_greenstein");
@@ -49,7 +49,7 @@ TEST(VolumetricsSettings, ValuesOutOfRangeAreRefused) {
     Settings settings;
     SettingsSet set;
     set.add(settings_table(), &settings);
-    for (const char* assignment : {"steps=0", "steps=1025", "dither_size=3", "blur_sigma=0", "technique=froxels", "phase=rayleigh",
+    for (const char* assignment : {"steps=0", "steps=1025", "noise_size=3", "filter_sigma=0", "technique=froxels", "phase=rayleigh",
                                    "phase_back_anisotropy=0.1", "phase_back_weight=1.1"})
         EXPECT_THROW(set.set(assignment), UsageError) << assignment;
 }

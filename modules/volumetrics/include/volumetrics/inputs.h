@@ -53,6 +53,9 @@ struct Inputs {
     float znear = 0.1f;  ///< m
     glm::ivec2 size{0};  ///< px, of `depth`
     TextureRef depth;    ///< D32F reversed-Z
+    /// RG16F, or empty: nothing moves but the camera. Of the surface seen: its place on the screen now less that in the frame before,
+    /// 0..1 of the picture; the camera's motion included, as projected without jitter. Read by the setting temporal.
+    TextureRef motion;
 
     std::vector<GlobalMedium> global;  ///< any number of homogeneous, at most 4 height media (Error otherwise)
     std::vector<LocalMedium> local;

@@ -19,6 +19,7 @@ struct Outputs {
     TextureRef scattering;     ///< RGBA16F: in-scattered and emitted radiance; a = mean transmittance
     TextureRef transmittance;  ///< RGBA16F, only when some medium's extinction is coloured; else scattering.a holds
                                ///< for all channels
+    TextureRef acceptance;     ///< R16F, of the setting temporal: share 0 … 1 of what was kept that each pixel took; empty without
     Fog fog;
 };
 

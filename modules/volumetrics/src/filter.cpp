@@ -3,14 +3,14 @@
 
 #include "engine/gl/state.h"
 #include "engine/gl/vertex_array.h"
-#include "passes.h"
+#include "reconstruction.h"
 
 namespace tyndall::volumetrics {
 namespace {
 
-const ProgramDesc program{.name = "volumetrics/blur",
+const ProgramDesc program{.name = "volumetrics/filter",
                           .stages = {{GL_VERTEX_SHADER, "shaders/lib/fullscreen.vert"},
-                                     {GL_FRAGMENT_SHADER, "shaders/volumetrics/blur.frag"}},
+                                     {GL_FRAGMENT_SHADER, "shaders/volumetrics/filter.frag"}},
                           .axes = {{"BILATERAL", {0, 1}}, {"CHROMATIC", {0, 1}}, {"COUNT_WORK", {0, 1}}},
                           .valid = {}};
 const ProgramRegistry::Registration registration(program);
@@ -28,7 +28,7 @@ glm::vec4 gaussian(int first, float sigma) {
 Outputs add_direction(PassList& passes, const PassResources& resources, const Inputs& inputs,
                       const Settings& settings, const Outputs& source, const std::string& name,
                       glm::vec2 direction) {
-    const bool bilateral = settings.blur == Blur::bilateral;
+    const bool bilateral = settings.filter_depth != FilterDepth::none;
     const bool chromatic = static_cast<bool>(source.transmittance);
     const TextureRef depth = bilateral ? inputs.depth : TextureRef{};
     Outputs target;
@@ -47,7 +47,7 @@ Outputs add_direction(PassList& passes, const PassResources& resources, const In
             target.scattering = builder.attach_color(target.scattering);
             if (chromatic) target.transmittance = builder.attach_color(target.transmittance);
         },
-        [source, depth, step, sigma = settings.blur_sigma, falloff = settings.blur_depth_falloff, &shader,
+        [source, depth, step, sigma = settings.filter_sigma, falloff = settings.filter_depth_falloff, &shader,
          &resources](const PassContext& context) {
             const auto texture = [&](TextureRef ref) { return ref ? context.texture(ref) : gl::TextureView(); };
             gl::apply({});
@@ -67,11 +67,11 @@ Outputs add_direction(PassList& passes, const PassResources& resources, const In
 
 }  // namespace
 
-Outputs add_blur(PassList& passes, const PassResources& resources, const Inputs& inputs, const Settings& settings,
+Outputs add_filter(PassList& passes, const PassResources& resources, const Inputs& inputs, const Settings& settings,
                  const Outputs& source) {
     const Outputs half_way =
-        add_direction(passes, resources, inputs, settings, source, "volumetrics/blur_horizontal", {1, 0});
-    return add_direction(passes, resources, inputs, settings, half_way, "volumetrics/blur_vertical", {0, 1});
+        add_direction(passes, resources, inputs, settings, source, "volumetrics/filter_horizontal", {1, 0});
+    return add_direction(passes, resources, inputs, settings, half_way, "volumetrics/filter_vertical", {0, 1});
 }
 
 }  // namespace tyndall::volumetrics

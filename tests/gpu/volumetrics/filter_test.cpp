@@ -6,11 +6,12 @@
 namespace tyndall::test {
 namespace {
 
-using volumetrics::Blur;
+using volumetrics::Filter;
+using volumetrics::FilterDepth;
 
-class VolumetricsBlur : public GlTest {
+class VolumetricsFilter : public GlTest {
   protected:
-    VolumetricsBlur() {
+    VolumetricsFilter() {
         host.size = {48, 32};
         host.vertical_fov = 1e-4F;  // all rays alike
         host.ambient = glm::vec3(1);
@@ -18,21 +19,22 @@ class VolumetricsBlur : public GlTest {
     }
     StubHost host;
 
-    Frame render(Blur blur, float sigma = 1.5F) {
+    Frame render(Filter filter, FilterDepth depth = FilterDepth::none, float sigma = 1.5F) {
         Settings settings = plain_settings(1);
-        settings.blur = blur;
-        settings.blur_sigma = sigma;
+        settings.filter = filter;
+        settings.filter_depth = depth;
+        settings.filter_sigma = sigma;
         return host.render(settings);
     }
 };
 
-TEST_F(VolumetricsBlur, KeepsAConstantImage) {
+TEST_F(VolumetricsFilter, KeepsAConstantImage) {
     for (const glm::vec3 sigma_a : {glm::vec3(0.05F), glm::vec3(0.01F, 0.2F, 0.8F)}) {
         host.global[0].sigma_a = sigma_a;
-        const Frame sharp = render(Blur::none);
-        for (const Blur blur : {Blur::gaussian, Blur::bilateral})
+        const Frame sharp = render(Filter::none);
+        for (const FilterDepth depth : {FilterDepth::none, FilterDepth::relative})
             for (const float sigma : {0.3F, 1.5F, 7.0F}) {
-                const Frame frame = render(blur, sigma);
+                const Frame frame = render(Filter::gaussian15, depth, sigma);
                 for (std::size_t i = 0; i < sharp.scattering.pixels.size(); ++i)
                     ASSERT_NEAR(frame.scattering.pixels[i], sharp.scattering.pixels[i],
                                 sharp.scattering.pixels[i] / 2048);
@@ -43,9 +45,9 @@ TEST_F(VolumetricsBlur, KeepsAConstantImage) {
     }
 }
 
-TEST_F(VolumetricsBlur, GaussianSpreadsAStepByItsErrorFunction) {
+TEST_F(VolumetricsFilter, GaussianSpreadsAStepByItsErrorFunction) {
     host.view_depth = [](int x, int) { return x < 24 ? 5.0F : 20.0F; };
-    const Frame sharp = render(Blur::none), frame = render(Blur::gaussian, 2);
+    const Frame sharp = render(Filter::none), frame = render(Filter::gaussian15, FilterDepth::none, 2);
     const double left = sharp.scattering.at(0, 16)[0], right = sharp.scattering.at(47, 16)[0];
     for (int x = 14; x < 34; ++x) {
         const double part = 0.5 * (1 + std::erf((x + 0.5 - 24) / (2 * std::sqrt(2.0))));
@@ -53,25 +55,25 @@ TEST_F(VolumetricsBlur, GaussianSpreadsAStepByItsErrorFunction) {
     }
 }
 
-TEST_F(VolumetricsBlur, BilateralKeepsADepthStepAndTheSky) {
+TEST_F(VolumetricsFilter, BilateralKeepsADepthStepAndTheSky) {
     host.size = {48, 48};
     host.view_depth = [](int x, int y) { return y < 24 ? (x < 24 ? 5.0F : 20.0F) : (x < 24 ? 20.0F : sky); };
-    const Frame sharp = render(Blur::none), frame = render(Blur::bilateral, 3);
+    const Frame sharp = render(Filter::none), frame = render(Filter::gaussian15, FilterDepth::relative, 3);
     for (std::size_t i = 0; i < sharp.scattering.pixels.size(); ++i)
         ASSERT_NEAR(frame.scattering.pixels[i], sharp.scattering.pixels[i], sharp.scattering.pixels[i] / 2048);
 }
 
-TEST_F(VolumetricsBlur, BilateralFiltersAlongASlopedSurfaceAndNoiseAway) {
+TEST_F(VolumetricsFilter, BilateralFiltersAlongASlopedSurfaceAndNoiseAway) {
     // Steps of 4% in depth from pixel to pixel are one surface; dithered shadows on it are smoothed.
     host.view_depth = [](int x, int) { return 10.0F * std::pow(1.04F, static_cast<float>(x)); };
     host.ambient = glm::vec3(0);
     host.has_sun = true;
     host.sun_illuminance = glm::vec3(1000);
     host.shadows = 1;
-    const auto roughness = [&](Blur blur) {
+    const auto roughness = [&](Filter filter) {
         Settings settings = plain_settings(2);
-        settings.dither = volumetrics::Dither::bayer;
-        settings.blur = blur;
+        settings.noise = volumetrics::Noise::bayer;
+        settings.filter = filter;
         const Frame frame = host.render(settings);
         double sum = 0;
         for (int y = 0; y < 32; ++y)
@@ -79,12 +81,12 @@ TEST_F(VolumetricsBlur, BilateralFiltersAlongASlopedSurfaceAndNoiseAway) {
                 sum += std::pow(frame.scattering.at(x, y)[0] - frame.scattering.at(x - 1, y)[0], 2);
         return std::sqrt(sum);
     };
-    EXPECT_LT(roughness(Blur::bilateral), 0.3 * roughness(Blur::none));
+    EXPECT_LT(roughness(Filter::gaussian15), 0.3 * roughness(Filter::none));
 }
 
-TEST_F(VolumetricsBlur, TransmittanceStaysInRange) {
+TEST_F(VolumetricsFilter, TransmittanceStaysInRange) {
     host.view_depth = [](int x, int y) { return (x + y) % 3 == 0 ? 0.2F : 200.0F; };
-    const Frame frame = render(Blur::gaussian, 4);
+    const Frame frame = render(Filter::gaussian15, FilterDepth::none, 4);
     for (const float v : frame.transmittance.pixels) ASSERT_TRUE(v >= 0 && v <= 1) << v;
 }
 

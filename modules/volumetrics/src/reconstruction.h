@@ -1,0 +1,36 @@
+#pragma once
+
+#include "passes.h"
+
+namespace tyndall::volumetrics {
+
+class TemporalHistory;
+
+/// What techniques that sample draw to: `inputs` with the size and the depth of the chosen resolution. At full
+/// resolution these are the host's.
+[[nodiscard]] Inputs add_depth_downsample(PassList& passes, const PassResources& resources, const Inputs& inputs,
+                                          const Settings& settings);
+/// The technique's samples are reconstructed.
+[[nodiscard]] bool can_be_reconstructed(Technique technique);
+/// Pixels of the host along each side of one pixel of that: 1, 2 or 4.
+[[nodiscard]] int resolution_factor(const Settings& settings);
+
+/// Between samples and picture, each where settings ask for it:
+///     temporal (before) -> spatial filter -> up-sampling -> temporal (after)
+/// `sampled` is of the size of `low` (add_depth_downsample); the result is of the host's. Every texture of `sampled`
+/// goes the same way.
+[[nodiscard]] Outputs add_reconstruction(PassList& passes, const PassResources& resources, const Inputs& inputs,
+                                         const Inputs& low, const Settings& settings, const Outputs& sampled,
+                                         TemporalHistory& history);
+
+/// The spatial filter, two passes at the resolution of `source`; settings.filter is not none.
+[[nodiscard]] Outputs add_filter(PassList& passes, const PassResources& resources, const Inputs& low,
+                                 const Settings& settings, const Outputs& source);
+/// From the resolution of `low` to the host's.
+[[nodiscard]] Outputs add_upsample(PassList& passes, const PassResources& resources, const Inputs& inputs,
+                                   const Inputs& low, const Settings& settings, const Outputs& source);
+/// The mean over frames at the resolution of `at`, settings.temporal is not off. Outputs::acceptance is set.
+[[nodiscard]] Outputs add_temporal(PassList& passes, const PassResources& resources, const Inputs& at,
+                                   const Settings& settings, const Outputs& source, TemporalHistory& history);
+
+}  // namespace tyndall::volumetrics
