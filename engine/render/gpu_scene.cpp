@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 
 #include "engine/core/check.h"
 #include "engine/render/alpha_coverage.h"
@@ -132,6 +133,7 @@ void GpuScene::place_instances(const Scene& scene) {
         models_.push_back(scene.nodes[static_cast<std::size_t>(instances_[i].node)].world);
         if (instances_[i].dynamic) dynamic_.push_back(static_cast<int>(i));
     }
+    previous_models_ = models_;
     transforms_ = gl::Buffer::of(std::span<const glm::mat4>(models_), "instance transforms");
 }
 
@@ -140,12 +142,33 @@ void GpuScene::update(const Scene& scene) {
     for (const int index : dynamic_) {
         Instance& instance = instances_[static_cast<std::size_t>(index)];
         const glm::mat4& world = scene.nodes[static_cast<std::size_t>(instance.node)].world;
-        models_[static_cast<std::size_t>(index)] = world;
+        glm::mat4& model = models_[static_cast<std::size_t>(index)];
+        previous_models_[static_cast<std::size_t>(index)] = std::exchange(model, world);
         instance.bounds = transformed(scene.meshes[static_cast<std::size_t>(instance.mesh)].bounds, world);
     }
-    // One upload from the first to the last that moved: fewer calls matter more than the bytes between.
+    write_dynamic(transforms_, models_);
+}
+
+void GpuScene::write_dynamic(gl::Buffer& transforms, const std::vector<glm::mat4>& models) const {
     const auto first = static_cast<std::size_t>(dynamic_.front()), last = static_cast<std::size_t>(dynamic_.back());
-    transforms_.write(first * sizeof(glm::mat4), (last - first + 1) * sizeof(glm::mat4), &models_[first]);
+    transforms.write(first * sizeof(glm::mat4), (last - first + 1) * sizeof(glm::mat4), &models[first]);
+}
+
+bool GpuScene::has_moved(const Frustum& frustum) const {
+    return std::ranges::any_of(dynamic_, [&](int index) {
+        const auto i = static_cast<std::size_t>(index);
+        return models_[i] != previous_models_[i] && !materials_[instances_[i].material].alpha_blend &&
+               frustum.intersects(instances_[i].bounds);
+    });
+}
+
+void GpuScene::bind_previous() {
+    if (!previous_transforms_)
+        previous_transforms_ =
+            gl::Buffer::of(std::span<const glm::mat4>(previous_models_), "previous instance transforms");
+    else if (!dynamic_.empty())
+        write_dynamic(previous_transforms_, previous_models_);
+    previous_transforms_.bind(GL_SHADER_STORAGE_BUFFER, BINDING_PREVIOUS_INSTANCES);
 }
 
 void GpuScene::bind() const {

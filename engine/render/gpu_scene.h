@@ -31,8 +31,10 @@ class GpuScene {
     /// Throws Error for a picture larger than the driver's limit.
     /// `anisotropy` of the material textures' filter, 1 to the driver's limit.
     explicit GpuScene(const Scene& scene, float anisotropy = 4);
-    /// Uploads the transforms of dynamic instances and refreshes their bounds.
+    /// Uploads the transforms of dynamic instances and refreshes their bounds. Once a frame: those before are kept.
     void update(const Scene& scene);
+    /// Something opaque whose bounds meet `frustum` had another transform at the update before.
+    [[nodiscard]] bool has_moved(const Frustum& frustum) const;
 
     [[nodiscard]] std::span<const Instance> instances() const { return instances_; }
     struct MeshRange {
@@ -54,6 +56,8 @@ class GpuScene {
     /// Attribute 0 position, 1 normal, 2 tangent, 3 uv; instance transforms at BINDING_INSTANCES (mat4 model per
     /// instance, in the order of instances()).
     void bind() const;
+    /// The transforms at the update before, in the same form, at BINDING_PREVIOUS_INSTANCES. Uploads them.
+    void bind_previous();
     /// True when a dynamic shadow caster whose bounds meet `frustum` exists.
     [[nodiscard]] bool has_dynamic_caster(const Frustum& frustum) const;
 
@@ -62,16 +66,20 @@ class GpuScene {
     void upload_meshes(const Scene& scene);
     void upload_materials(const Scene& scene);
     void place_instances(const Scene& scene);
+    /// Uploads those of `models` from the first to the last dynamic one: fewer calls matter more than the bytes
+    /// between.
+    void write_dynamic(gl::Buffer& transforms, const std::vector<glm::mat4>& models) const;
 
     float anisotropy_;
     std::vector<Instance> instances_;
     std::vector<int> dynamic_;  ///< indices into instances_, ascending
-    std::vector<glm::mat4> models_;
+    std::vector<glm::mat4> models_, previous_models_;
     std::vector<MeshRange> ranges_;
     std::vector<GpuMaterial> materials_;
     std::map<std::tuple<int, bool, float>, gl::Texture> textures_;  ///< by picture, sRGB, alpha cutoff (0: none)
     gl::Texture white_, flat_normal_;
     gl::Buffer vertices_, indices_, transforms_;
+    gl::Buffer previous_transforms_;  ///< from the first bind_previous on
     gl::VertexArray vertex_array_;
 };
 

@@ -22,6 +22,19 @@ Image per_pixel(const Image& from, int channels, const std::function<void(const 
     return to;
 }
 
+/// From red to green; `shares` may be of a lower resolution than the frame.
+Image acceptance(const Image& shares, glm::ivec2 size) {
+    Image to(size, 3);
+    for (int y = 0; y < size.y; ++y)
+        for (int x = 0; x < size.x; ++x) {
+            const glm::ivec2 texel = (2 * glm::ivec2(x, y) + 1) * shares.size / (2 * size);
+            const float share = *shares.at(texel.x, texel.y);
+            to.at(x, y)[0] = 1 - share;
+            to.at(x, y)[1] = share;
+        }
+    return to;
+}
+
 float srgb_decode(float v) {
     return v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f);
 }
@@ -47,6 +60,7 @@ Image decode_layer(const std::string& layer, const gl::TextureView& texture, con
         });
     if (layer == "albedo")
         return per_pixel(raw, 3, [](const float* in, float* out) { std::transform(in, in + 3, out, srgb_decode); });
+    if (layer == "acceptance") return acceptance(raw, source.size);
     if (source.in_alpha) return per_pixel(raw, 3, [](const float* in, float* out) { std::fill_n(out, 3, in[3]); });
     return per_pixel(raw, 3, [](const float* in, float* out) { std::copy_n(in, 3, out); });
 }

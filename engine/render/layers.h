@@ -14,7 +14,7 @@ struct LayerSource {
 };
 
 /// Reads a layer of a frame (Renderer::layer_names) into the form that Renderer::read_layer promises. `texture` is
-/// empty where the frame had no medium: then scattering is 0 and transmittance 1.
+/// empty where the frame had no medium: then scattering is 0 and transmittance 1; acceptance without one is 0.
 [[nodiscard]] Image decode_layer(const std::string& layer, const gl::TextureView& texture,
                                  const LayerSource& source);
 

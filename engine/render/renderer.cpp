@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 
 #include "engine/core/check.h"
 #include "engine/core/error.h"
@@ -12,6 +13,7 @@
 #include "engine/render/frame_context.h"
 #include "engine/render/layers.h"
 #include "engine/render/light_set.h"
+#include "engine/render/passes/acceptance_view.h"
 #include "engine/render/passes/cluster.h"
 #include "engine/render/passes/depth_pyramid.h"
 #include "engine/render/passes/gbuffer.h"
@@ -54,6 +56,7 @@ struct Renderer::Impl {
     gl::Buffer frame_block;
     gl::Texture color, display;
     gl::Framebuffer display_framebuffer;
+    std::optional<glm::mat4> previous_view_projection;  ///< of the frame before, if this one continues it
     float znear = 0.1f;
     struct Layer {
         gl::TextureView texture;
@@ -72,6 +75,7 @@ struct Renderer::Impl {
 
 void Renderer::Impl::resize(glm::ivec2 size) {
     if (color && color.size() == size) return;
+    previous_view_projection.reset();
     const glm::ivec3 extent(size, 1);
     color = gl::Texture({gl::TextureKind::d2, GL_RGBA16F, extent, 1}, "color");
     display = gl::Texture({gl::TextureKind::d2, GL_RGBA8, extent, 1}, "display");
@@ -147,11 +151,13 @@ LightSources Renderer::Impl::add_lights(FrameContext& frame, const GBuffer& g, c
 
 void Renderer::Impl::add_passes(FrameContext& frame, LightSources& sources, const FrameOptions& options) {
     const ShadowSunPass::Output sun = shadow_sun.add(frame);
-    const GBuffer g = gbuffer.add(frame);
+    const bool motion = facts.has_medium() && volumetrics::reads_motion(options.volumetrics);
+    const GBuffer g = gbuffer.add(frame, motion ? previous_view_projection : std::nullopt);
     sources = add_lights(frame, g, sun);
 
     volumetrics::Inputs media = volumetrics_inputs(frame);
     add_lighting_inputs(media, sources, lights, g.depth);
+    media.motion = g.motion;
     media.transparents = transparent.gather(frame);
     volumetrics->prepare(media, options.volumetrics);
     const volumetrics::LightTransmittance transmittance =
@@ -173,8 +179,11 @@ void Renderer::Impl::add_passes(FrameContext& frame, LightSources& sources, cons
     const volumetrics::Outputs media_light = volumetrics->add_passes(passes, media, options.volumetrics);
     radiance = volumetrics->composite(passes, media_light, radiance);
     radiance = transparent.add(frame, g, sources, *volumetrics, media_light.fog, radiance);
-    const TextureRef shown = add_tonemap(frame, radiance, passes.import("display", display));
-    passes.export_texture(shown);
+    const TextureRef screen = passes.import("display", display);
+    passes.export_texture(radiance);
+    passes.export_texture(options.show_acceptance && media_light.acceptance
+                              ? add_acceptance_view(frame, media_light.acceptance, screen)
+                              : add_tonemap(frame, radiance, screen));
 
     const TextureRef transmitted = media_light.transmittance ? media_light.transmittance : media_light.scattering;
     const std::pair<const char*, TextureRef> refs[] = {{"color", radiance},
@@ -183,7 +192,8 @@ void Renderer::Impl::add_passes(FrameContext& frame, LightSources& sources, cons
                                                        {"depth", g.depth},
                                                        {"albedo", g.albedo},
                                                        {"normal", g.normal},
-                                                       {"emissive", g.emissive}};
+                                                       {"emissive", g.emissive},
+                                                       {"acceptance", media_light.acceptance}};
     for (const auto& [name, ref] : refs)
         if (layers.contains(name)) export_layer(name, ref);
     if (layers.contains("transmittance")) layers["transmittance"].in_alpha = !media_light.transmittance;
@@ -219,6 +229,7 @@ Renderer::~Renderer() = default;
 
 void Renderer::prepare(const Scene& scene, float anisotropy) {
     impl_->scene = std::make_unique<GpuScene>(scene, anisotropy);
+    impl_->previous_view_projection.reset();
 }
 
 void Renderer::render(const Scene& scene, const View& view, glm::ivec2 size, const FrameOptions& options) {
@@ -258,10 +269,12 @@ void Renderer::render(const Scene& scene, const View& view, glm::ivec2 size, con
     LightSources sources;
     r.add_passes(frame, sources, options);
     r.execute(data, options);
+    r.previous_view_projection = view.view_projection;
 }
 
 void Renderer::invalidate_history() {
     impl_->volumetrics = std::make_unique<volumetrics::Volumetrics>(impl_->shaders);
+    impl_->previous_view_projection.reset();
 }
 
 glm::ivec2 Renderer::size() const {
@@ -289,7 +302,7 @@ Image Renderer::read_layer(const std::string& name) const {
 }
 const std::vector<std::string>& Renderer::layer_names() {
     static const std::vector<std::string> names{"color",  "scattering", "transmittance", "depth",
-                                                "albedo", "normal",     "emissive"};
+                                                "albedo", "normal",     "emissive",      "acceptance"};
     return names;
 }
 const FrameFacts& Renderer::facts() const {

@@ -28,6 +28,7 @@ struct FrameOptions {
     gl::GpuTimer* timer = nullptr;  ///< per-pass times; render() begins its frame and copies its results
     std::string layer = "color";    ///< the layer that read_layer may be asked for (layer_names)
     std::vector<std::string> more_layers = {};  ///< others that it may be asked for by name
+    bool show_acceptance = false;  ///< the display shows the layer acceptance, while there is a temporal filter
     volumetrics::Settings volumetrics;
     RenderSettings render;
 };
@@ -68,7 +69,9 @@ class Renderer {
     [[nodiscard]] Image read_display() const;
     /// FrameOptions::layer of the last frame, linear, 3 channels (depth: 1), row 0 at the top: color, scattering
     /// and emissive in cd/m²; transmittance 0..1 (scattering 0 and transmittance 1 without a medium); depth as view
-    /// depth in metres, 0 where there is only sky; albedo; normal in world space, 0 on the sky.
+    /// depth in metres, 0 where there is only sky; albedo; normal in world space, 0 on the sky; acceptance, the
+    /// share of earlier frames in each pixel's light (volumetrics::Outputs), from red (none) to green (all of it),
+    /// black without a temporal filter.
     [[nodiscard]] Image read_layer() const;
     /// The same for one of FrameOptions::more_layers.
     [[nodiscard]] Image read_layer(const std::string& name) const;

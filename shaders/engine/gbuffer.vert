@@ -13,6 +13,12 @@ layout(location = 0) out vec3 world_normal;
 layout(location = 1) out vec4 world_tangent;
 layout(location = 2) out vec2 uv;
 layout(location = 3) flat out float handedness;  // -1 where the model matrix mirrors
+#if MOTION
+layout(std430, binding = BINDING_PREVIOUS_INSTANCES) readonly buffer PreviousInstanceBuffer { mat4 previous_models[]; };
+uniform mat4 u_previous_view_projection;
+layout(location = 4) out vec3 clip_now;     // xyw
+layout(location = 5) out vec3 clip_before;  // of the same point of the surface in the frame before
+#endif
 
 void main() {
     mat4 model = models[visible_instances[gl_BaseInstanceARB + gl_InstanceID]];
@@ -24,4 +30,9 @@ void main() {
     world_tangent = vec4(m * tangent.xyz, handedness * tangent.w);
     uv = texcoord;
     gl_Position = frame.view_projection * (model * vec4(position, 1.0));
+#if MOTION
+    mat4 previous_model = previous_models[visible_instances[gl_BaseInstanceARB + gl_InstanceID]];
+    clip_now = gl_Position.xyw;
+    clip_before = (u_previous_view_projection * (previous_model * vec4(position, 1.0))).xyw;
+#endif
 }

@@ -21,6 +21,7 @@
 #define BINDING_SPRITES 11
 #define BINDING_LAMP_VOLUMES 12
 #define BINDING_PARTICLES 13
+#define BINDING_PREVIOUS_INSTANCES 14
 #define BINDING_WORK 15
 
 // Texture units of the lighting contract; passes use units 0-7 for their own textures.

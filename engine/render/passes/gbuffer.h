@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "engine/render/draw_list.h"
 #include "engine/render/frame_context.h"
 
@@ -11,16 +13,19 @@ struct GBuffer {
     TextureRef material;  ///< RGBA8 roughness, metallic, occlusion
     TextureRef emissive;  ///< RGBA16F cd/m²
     TextureRef depth;     ///< D32F reversed-Z; 0 is sky
+    TextureRef motion;    ///< empty, or RG16F: volumetrics::Inputs::motion; 0 on the sky
 };
 
 /// Draws what the view sees of the scene's opaque and alpha-masked surfaces.
 class GBufferPass {
   public:
-    GBuffer add(FrameContext& frame);
+    /// GBuffer::motion is made where the view-projection of the frame before is given and something that is drawn
+    /// has moved since.
+    GBuffer add(FrameContext& frame, const std::optional<glm::mat4>& previous_view_projection);
     [[nodiscard]] const DrawList& draws() const { return draws_; }
 
   private:
-    void draw(const FrameContext& frame) const;
+    void draw(const FrameContext& frame, const glm::mat4* previous_view_projection) const;
     DrawList draws_;
 };
 

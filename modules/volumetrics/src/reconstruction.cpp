@@ -8,6 +8,11 @@ bool can_be_reconstructed(Technique technique) {
     return technique == Technique::ray_march || technique == Technique::froxel || technique == Technique::radial_shafts;
 }
 
+bool reads_motion(const Settings& settings) {
+    return can_be_reconstructed(settings.technique) && settings.temporal != Temporal::off &&
+           settings.temporal != Temporal::blend;
+}
+
 int resolution_factor(const Settings& settings) {
     return !can_be_reconstructed(settings.technique) ? 1 : 1 << static_cast<int>(settings.resolution);
 }

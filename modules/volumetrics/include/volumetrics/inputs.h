@@ -10,6 +10,8 @@
 
 namespace tyndall::volumetrics {
 
+struct Settings;
+
 /// A medium that fills space. Coefficients in 1/m at density 1; density is 1, or exp(-(y - base) / falloff).
 struct GlobalMedium {
     glm::vec3 sigma_s{0}, sigma_a{0};
@@ -54,7 +56,8 @@ struct Inputs {
     glm::ivec2 size{0};  ///< px, of `depth`
     TextureRef depth;    ///< D32F reversed-Z
     /// RG16F, or empty: nothing moves but the camera. Of the surface seen: its place on the screen now less that in the frame before,
-    /// 0..1 of the picture; the camera's motion included, as projected without jitter. Read by the setting temporal.
+    /// 0..1 of the picture; the camera's motion included, as projected without jitter. Beyond -1..1: it was not in the
+    /// picture. Not read where depth is 0, for there only the camera moves. Wanted where reads_motion() says so.
     TextureRef motion;
 
     std::vector<GlobalMedium> global;  ///< any number of homogeneous, at most 4 height media (Error otherwise)
@@ -75,5 +78,8 @@ struct Inputs {
     double time = 0;          ///< s
     bool count_work = false;  ///< compile the instrumented permutations
 };
+
+/// Whether Inputs::motion changes anything: the technique is filtered over time along it.
+[[nodiscard]] bool reads_motion(const Settings& settings);
 
 }  // namespace tyndall::volumetrics
