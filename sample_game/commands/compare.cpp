@@ -8,6 +8,7 @@
 #include "engine/core/error.h"
 #include "engine/core/flip.h"
 #include "engine/core/image.h"
+#include "engine/core/image_edges.h"
 #include "engine/core/image_metrics.h"
 #include "sample_game/commands/commands.h"
 
@@ -17,11 +18,12 @@ namespace {
 const std::vector<std::string> metric_names{"rmse", "relrmse", "relmse", "psnr", "max", "flip"};
 /// 10 of 255 levels, and the rounding of a difference of two.
 constexpr float visible_difference = 10.0f / 255.0f + 1e-6f;
+constexpr int band_radius = 3;  ///< px
 
 struct Options {
     std::string a, b;
     std::vector<std::string> metrics;
-    std::optional<std::string> heatmap, threshold;
+    std::optional<std::string> heatmap, threshold, edges;
     bool json = false;
 };
 
@@ -74,6 +76,15 @@ void run(const Options& o) {
         result[name] = value;
         if (!o.json) fmt::print("{:<6} {:.9g}\n", name, value);
     }
+    if (o.edges) {
+        const MaskedError error = masked_relative_rmse(a, b, edge_band(read_image(*o.edges, 1), band_radius));
+        const std::pair<const char*, double> values[]{
+            {"edges", error.inside}, {"elsewhere", error.outside}, {"edge_share", error.share}};
+        for (const auto& [name, value] : values) {
+            result[name] = value;
+            if (!o.json) fmt::print("{:<6} {:.9g}\n", name, value);
+        }
+    }
     if (o.json) fmt::print("{}\n", result.dump());
     if (o.heatmap)
         write_image(*o.heatmap, only_flip ? flip_heatmap(flip)
@@ -100,6 +111,9 @@ void add_compare_command(CLI::App& app) {
         "--threshold", options->threshold,
         "write B with differences over 10/255 in red; radiance is shown sRGB encoded, white where 99 % of "
         "B's values lie below");
+    command->add_option("--edges", options->edges,
+                        "view depth (`render --layer depth`): relrmse, of the mean of all, also within 3 px of depth "
+                        "edges (edges) and in all other pixels (elsewhere)");
     command->add_flag("--json", options->json, "one JSON object; a value that is not finite is null");
     command->callback([options] { run(*options); });
 }

@@ -13,7 +13,7 @@ layout(location = 1) out vec4 out_transmittance;
 void main() {
     float depth = texelFetch(depth_texture, ivec2(gl_FragCoord.xy), 0).r;
     count_work(WORK_TEXTURE_FETCHES, 1u);
-    March march = froxel_march(gl_FragCoord.xy * volumetrics.target.zw,
+    March march = froxel_march(screen_place(gl_FragCoord.xy),
                                view_depth_from_buffer(depth, volumetrics.eye.w), true, is_background(depth), ambient);
     out_scattering = round_to_half(vec4(march.radiance, average(march.transmittance)));
 #if CHROMATIC

@@ -61,7 +61,7 @@ void march_segment(Ray ray, float a, float b, float offset, inout Extinction sun
 }
 
 void main() {
-    vec2 uv = gl_FragCoord.xy * volumetrics.target.zw;
+    vec2 uv = screen_place(gl_FragCoord.xy);
     Ray ray = view_ray(uv);
     float depth = texelFetch(depth_texture, ivec2(gl_FragCoord.xy), 0).r;
     count_work(WORK_TEXTURE_FETCHES, 1u);

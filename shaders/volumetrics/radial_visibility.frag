@@ -61,11 +61,11 @@ bool is_one_surface(float depth_0, float depth_1, float ratio) {
 // Between texels of one surface interpolated: buffer depth is linear over a plane on screen, which so cannot shadow
 // itself. Else that of the nearest texel.
 float depth_on_line(Line line, float u) {
-    vec2 p = mix(line.begin, line.end, u) * volumetrics.target.xy - 0.5;
+    vec2 p = mix(line.begin, line.end, u) / volumetrics.target.zw - 0.5;
     vec2 corner = floor(p);
     vec2 f = p - corner;
     count_work(WORK_TEXTURE_FETCHES, 1u);
-    vec4 four = textureGather(depth_texture, (corner + 1.0) * volumetrics.target.zw);  // 01, 11, 10, 00
+    vec4 four = textureGather(depth_texture, (corner + 1.0) / volumetrics.target.xy);  // 01, 11, 10, 00
     vec2 low = min(four.xy, four.zw), high = max(four.xy, four.zw);
     if (is_one_surface(min(low.x, low.y), max(high.x, high.y), BETWEEN_TEXELS))
         return mix(mix(four.w, four.z, f.x), mix(four.x, four.y, f.x), f.y);
@@ -151,7 +151,7 @@ float visibility_on_screen(Ray ray, float depth, float surface) {
 #endif
 
 void main() {
-    vec2 uv = gl_FragCoord.xy * volumetrics.target.zw;
+    vec2 uv = screen_place(gl_FragCoord.xy);
     Ray ray = view_ray(uv);
     float depth = texelFetch(depth_texture, ivec2(gl_FragCoord.xy), 0).r;
     count_work(WORK_TEXTURE_FETCHES, 1u);

@@ -12,6 +12,13 @@ struct Ray {
     vec2 uv;               // of the pixel, 0..1, origin lower left
 };
 
+// Where on the screen (0..1) a pixel of the chosen resolution looks: the middle of what it covers of it. At the far borders
+// blocks may reach beyond: there it is the middle of the part inside.
+vec2 screen_place(vec2 frag_coord) {
+    vec2 place = frag_coord * volumetrics.target.zw;
+    return min(place, 0.5 * (place - 0.5 * volumetrics.target.zw + 1.0));
+}
+
 Ray view_ray(vec2 uv) {
     vec4 p = volumetrics.inverse_projection * vec4(uv * 2.0 - 1.0, 1.0, 1.0);  // on the near plane
     vec3 view_direction = normalize(p.xyz / p.w);
