@@ -15,7 +15,7 @@ struct BenchOptions {
     std::vector<std::string> places;  ///< empty: all of the suite
     std::string size = "320x180";
     std::string context = "auto";
-    std::string reference = "cpu";  ///< or gpu
+    std::string reference = "cpu";  ///< gpu or march
     int repeats = 5;                ///< timed frames of each configuration
     bool resume = true;
     std::string command_line;  ///< for the report

@@ -10,7 +10,10 @@
 
 namespace tyndall::bench {
 
-enum class TruthKind { cpu, gpu };  ///< `tyndall reference`, or the technique `reference`
+/// `tyndall reference`; the technique `reference`; or what ray_march tends to with more samples, which leaves
+/// errors of sampling only.
+enum class TruthKind { cpu, gpu, march };
+[[nodiscard]] TruthKind truth_kind(const std::string& name);  ///< cpu, gpu or march: a failed check otherwise
 
 struct GroundTruth {
     Image color, scattering, transmittance;  ///< linear, 3 channels
@@ -30,6 +33,10 @@ class GroundTruths {
     std::filesystem::path folder_;
     TruthKind kind_;
 };
+
+/// Means of the layers over `frames` frames, drawn with the settings that the session has.
+[[nodiscard]] std::vector<Image> mean_of_frames(Session& session, const View& view, double time,
+                                                const std::vector<std::string>& layers, int frames);
 
 /// Layers of one frame, in the order of `layers`.
 [[nodiscard]] std::vector<Image> draw_layers(Session& session, const View& view, double time,

@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "sample_game/bench/reports.h"
+#include "sample_game/bench/sampling.h"
 #include "sample_game/bench/svg_plot.h"
 
 namespace tyndall::bench {
@@ -220,6 +221,8 @@ Pictures make_plots(const Suite& suite, const std::vector<Row>& rows, const std:
     if (suite.name == "convergence") return convergence_plots(suite, rows, machine);
     if (suite.name == "headline") return headline_plots(rows, machine);
     if (suite.name == "passes") return pass_plots(rows, machine);
+    if (suite.name == "resolution") return {};
+    if (suite.name == "ingredients") return ingredient_plots(rows, machine);
     return error_time_plots(rows, machine);
 }
 

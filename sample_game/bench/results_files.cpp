@@ -46,6 +46,8 @@ Fields fields(const Suite& suite, const Row& row) {
     const bool display = m.errors.has_value() && suite.display;
     add("scattering_relative_rmse", m.errors.has_value(), errors.scattering);
     add("scattering_relative_rmse_dim98", m.errors.has_value(), errors.dim);
+    add("relative_rmse_at_depth_edges", m.errors.has_value(), errors.edge);
+    add("relative_rmse_elsewhere", m.errors.has_value(), errors.rest);
     add("masked_pixels", m.errors.has_value(), errors.masked);
     add("transmittance_rmse", display, errors.transmittance);
     add("color_hdr_flip", display, errors.flip);

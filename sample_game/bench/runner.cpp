@@ -45,7 +45,7 @@ Runner::Runner(const BenchOptions& options, const Suite& suite, Store& store, st
       session_(session),
       editor_(std::make_unique<SceneEditor>(session->scene)),
       truths_(options.references.value_or(options.out / "references"),
-              options.reference == "gpu" ? TruthKind::gpu : TruthKind::cpu) {}
+              truth_kind(options.reference)) {}
 
 void Runner::run(const std::function<void()>& done) {
     int frames = 0, points = 0;

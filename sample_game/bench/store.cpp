@@ -75,12 +75,17 @@ void Store::apply(const json& record) {
     if (record.contains("times")) m.times.push_back(record["times"].get<PassTimes>());
     if (record.contains("errors")) {
         const json& e = record["errors"];
-        m.errors = Errors{number(e.at(0)), number(e.at(1)), number(e.at(2)),
-                          number(e.at(3)), number(e.at(4)), number(e.at(5))};
+        m.errors = Errors{number(e.at(0)), number(e.at(1)), number(e.at(2)), number(e.at(3)),
+                          number(e.at(4)), number(e.at(5)), number(e.at(6)), number(e.at(7))};
     }
     if (record.contains("motion")) {
         const json& r = record["motion"];
         m.motion = Motion{number(r.at(0)), {number(r.at(1)), number(r.at(2)), number(r.at(3))}};
+    }
+    if (record.contains("frames")) {
+        m.frames.clear();
+        for (const json& f : record["frames"])
+            m.frames.push_back({number(f.at(0)), number(f.at(1)), number(f.at(2))});
     }
     if (record.contains("work")) m.work = record["work"].get<gl::WorkCounts>();
 }
@@ -95,13 +100,20 @@ void Store::add_time(const std::string& key, const PassTimes& times) {
     append({{"key", key}, {"times", times}});
 }
 void Store::add_errors(const std::string& key, const Errors& e) {
-    append({{"key", key}, {"errors", {e.scattering, e.flip, e.transmittance, e.dim, e.masked, e.invalid}}});
+    append({{"key", key},
+            {"errors", {e.scattering, e.flip, e.transmittance, e.dim, e.masked, e.invalid, e.edge, e.rest}}});
 }
 void Store::add_motion(const std::string& key, const Motion& m) {
     append({{"key", key}, {"motion", {m.flicker, m.residual[0], m.residual[1], m.residual[2]}}});
 }
 void Store::add_work(const std::string& key, const gl::WorkCounts& work) {
     append({{"key", key}, {"work", work}});
+}
+
+void Store::add_frames(const std::string& key, const std::vector<FrameErrors>& frames) {
+    json list = json::array();
+    for (const FrameErrors& f : frames) list.push_back({f.error, f.dim, f.to_limit});
+    append({{"key", key}, {"frames", list}});
 }
 
 }  // namespace tyndall::bench

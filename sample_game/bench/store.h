@@ -25,6 +25,8 @@ struct Errors {
     double dim = 0;            ///< as `scattering`, without the 2% of pixels that are brightest in the ground truth
     double masked = 0;         ///< share of pixels left out of these: another surface is seen there
     double invalid = 0;        ///< values that are not finite, negative, or a transmittance above 1
+    double edge = 0;           ///< RMSE within two pixels of a depth edge, over the mean of the whole picture
+    double rest = 0;           ///< and of the other pixels
 };
 
 /// Of a static camera.
@@ -33,12 +35,21 @@ struct Motion {
     std::array<double, 3> residual{};  ///< of the light switched off, 1, 2 and 4 frames after: image_metrics.h
 };
 
-/// All that was measured at one point.
+/// Of one frame of a sequence.
+struct FrameErrors {
+    double error = 0;     ///< relative RMSE of the scattering layer against the ground truth of the frame's pose
+    double dim = 0;       ///< the same without the brightest 2%
+    double to_limit = 0;  ///< at rest, against the mean of many frames with as many steps: what more frames could
+                          ///< take away
+};
+
+/// All that was measured at one point, or of one sequence.
 struct Measured {
     std::vector<PassTimes> times;  ///< one for each timed frame
     std::optional<Errors> errors;
     std::optional<Motion> motion;
     std::optional<gl::WorkCounts> work;  ///< sum of the passes volumetrics/*
+    std::vector<FrameErrors> frames;     ///< of a sequence
 };
 
 /// Measurements of one folder: measurements.jsonl, to which each one is appended as it is made, so that an
@@ -55,6 +66,7 @@ class Store {
     void add_errors(const std::string& key, const Errors& errors);
     void add_motion(const std::string& key, const Motion& motion);
     void add_work(const std::string& key, const gl::WorkCounts& work);
+    void add_frames(const std::string& key, const std::vector<FrameErrors>& frames);  ///< in place of earlier ones
 
   private:
     void load(const std::filesystem::path& log);

@@ -9,6 +9,8 @@
 #include <map>
 
 #include "engine/core/error.h"
+#include "sample_game/bench/sampling.h"
+#include "sample_game/bench/sequences.h"
 #include "sample_game/bench/techniques.h"
 #include "volumetrics/settings.h"
 
@@ -233,6 +235,12 @@ const std::vector<Definition>& definitions() {
              return named({"open_sun", "lamps_open", "lamps_shadowed", "slats_sun"});
          },
          convergence_groups},
+        {"resolution", frame("March at lower resolutions", true, true, false), level_places, resolution_groups},
+        {"ingredients", frame("What each ingredient is worth", true, true, false),
+         [] {
+             return named({"Sun", "LocalLights", "Balance"});
+         },
+         ingredient_groups},
         {"smoke", frame("The benchmark itself, in seconds", true, true, true),
          [] {
              return named({"open_sun", "lamps_open"});
@@ -242,31 +250,34 @@ const std::vector<Definition>& definitions() {
     return list;
 }
 
-/// The suite's places that the request asks for, in the suite's order.
-Places chosen_places(const Definition& definition, const SuiteRequest& request) {
-    Places places = definition.places();
-    std::vector<std::string> names;
-    for (const Place& p : places) names.push_back(p.name);
-    for (const std::string& wanted : request.places)
-        if (std::ranges::find(names, wanted) == names.end())
-            throw UsageError(fmt::format("--scene {}: not in suite {}, which has {}", wanted, definition.name,
-                                         fmt::join(names, ", ")));
-    if (!request.places.empty())
-        std::erase_if(places, [&](const Place& p) {
-            return std::ranges::find(request.places, p.name) == request.places.end();
-        });
-    return places;
-}
-
 }  // namespace
 
 const std::vector<std::string>& suite_names() {
     static const std::vector<std::string> names = [] {
         std::vector<std::string> list;
         for (const Definition& d : definitions()) list.push_back(d.name);
+        list.insert(list.end(), sequence_suite_names().begin(), sequence_suite_names().end());
         return list;
     }();
     return names;
+}
+
+std::vector<std::string> chosen_places(const std::string& suite, std::vector<std::string> places,
+                                       const std::vector<std::string>& wanted) {
+    for (const std::string& name : wanted)
+        if (std::ranges::find(places, name) == places.end())
+            throw UsageError(
+                fmt::format("--scene {}: not in suite {}, which has {}", name, suite, fmt::join(places, ", ")));
+    if (!wanted.empty())
+        std::erase_if(places, [&](const std::string& p) { return std::ranges::find(wanted, p) == wanted.end(); });
+    return places;
+}
+
+std::string default_reference(const std::string& suite) {
+    if (suite == "convergence") return "gpu";
+    const bool sampling = suite == "resolution" || suite == "ingredients" ||
+                          std::ranges::find(sequence_suite_names(), suite) != sequence_suite_names().end();
+    return sampling ? "march" : "cpu";
 }
 
 Suite make_suite(const SuiteRequest& request) {
@@ -276,7 +287,10 @@ Suite make_suite(const SuiteRequest& request) {
             fmt::format("--suite {}: expected one of {}", request.name, fmt::join(suite_names(), ", ")));
     Suite suite = definition->frame;
     suite.name = definition->name;
-    for (const Place& p : chosen_places(*definition, request)) {
+    std::vector<std::string> places;
+    for (const Place& p : definition->places()) places.push_back(p.name);
+    for (const std::string& name : chosen_places(suite.name, places, request.places)) {
+        const Place& p = place(name);
         const PlaceFacts facts = place_facts(p, float(request.size.x) / float(request.size.y));
         for (Group& group : definition->groups(p, facts, request)) suite.groups.push_back(std::move(group));
     }

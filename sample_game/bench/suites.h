@@ -25,13 +25,21 @@ struct SceneEdit {
     int spheres = -1;  ///< replace the media by so many small spheres in view; -1: keep them
 };
 
+/// How far camera and lights are along their paths, in frames of motion (sequences.h).
+struct Pose {
+    int camera = 0, light = 0;
+    bool operator==(const Pose&) const = default;
+    [[nodiscard]] std::string name() const;  ///< part of a file's name; empty at rest
+};
+
 /// One thing to be measured.
 struct Point {
     const Place* place = nullptr;
     glm::ivec2 size{0};
     SceneEdit edit;
+    Pose pose;                        ///< of the ground truth of a sequence's frame
     bool light_transmittance = true;  ///< of the ground truth and the technique alike
-    std::string variable;  ///< what `value` counts: steps, pixels, lamps …
+    std::string variable;             ///< what `value` counts: steps, pixels, lamps …
     double value = 0;
     Configuration configuration;
     [[nodiscard]] std::string subject() const;  ///< place, size and edit: what shares one ground truth
@@ -61,7 +69,13 @@ struct SuiteRequest {
     std::vector<std::string> places;  ///< only these; empty: all of the suite
     bool against_gpu = false;         ///< the technique `reference` is the ground truth, and no competitor
 };
+/// Of make_suite(), and of sequences.h.
 [[nodiscard]] const std::vector<std::string>& suite_names();
+/// The suite's places that are wanted (all, if none is named), in the suite's order. Throws UsageError.
+[[nodiscard]] std::vector<std::string> chosen_places(const std::string& suite, std::vector<std::string> places,
+                                                     const std::vector<std::string>& wanted);
+/// The ground truth that suits a suite: cpu, gpu or march.
+[[nodiscard]] std::string default_reference(const std::string& suite);
 /// Loads the scenes' facts. Throws UsageError (unknown suite or place) or Error (a scene that does not load).
 [[nodiscard]] Suite make_suite(const SuiteRequest& request);
 

@@ -6,17 +6,16 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 
+#include "sample_game/bench/conditions.h"
+#include "sample_game/bench/markdown.h"
 #include "sample_game/bench/reports.h"
+#include "sample_game/bench/sampling.h"
 
 namespace tyndall::bench {
 
 using nlohmann::json;
 
 namespace {
-
-std::string three(double value) {
-    return std::isfinite(value) ? fmt::format("{:.3g}", value) : "–";
-}
 
 std::string settings_text(const Configuration& c) {
     return fmt::format("`{}`", fmt::join(c.settings, " "));
@@ -33,23 +32,14 @@ std::string usual_spread(const std::vector<Row>& rows) {
 
 std::string method(const Suite& suite, const std::vector<Row>& rows, const json& c) {
     const auto text = [&](const char* key) { return c.value(key, json("?")).dump(); };
-    const auto bare = [&](const char* key) { return c.at(key).get<std::string>(); };
-    std::string md = fmt::format(
-        "# {}\n\nSuite `{}`, measured {}.\n\n    {}\n\n| | |\n|---|---|\n| driver | {}, {} |\n| processor | {} |\n"
-        "| program | {} |\n| size | {} |\n",
-        suite.title, suite.name, bare("date"), bare("command"), bare("driver"), bare("driver_version"),
-        bare("processor"), bare("version"), bare("size"));
+    std::string md = report_head(suite.title, c);
     if (suite.times)
         md += fmt::format(
             "| times | {}; median of up to {} frames in turns with all others, and interquartile range; after 5 s "
             "of timed frames two are enough |\n| spread | {} of the median, in the median of all configurations "
             "|\n",
-            bare("timing"), text("repeats"), usual_spread(rows));
-    if (suite.errors)
-        md +=
-            fmt::format("| ground truth | {} |\n",
-                        c.at("reference") == "cpu" ? "CPU: `tyndall reference`, one ray through each pixel's centre"
-                                                   : "GPU: technique `reference`, over the same shadow maps");
+            c.at("timing").get<std::string>(), text("repeats"), usual_spread(rows));
+    if (suite.errors) md += ground_truth_row(c);
     if (suite.errors)
         md +=
             "| error | relative RMSE of the scattering layer, over pixels that see the same surface as the ground "
@@ -251,6 +241,8 @@ std::string make_summary(const Suite& suite, const std::vector<Row>& rows, const
     if (suite.name == "headline") return head + headline_summary(rows, plots);
     if (suite.name == "approaches") return head + approach_summary(rows);
     if (suite.name == "passes") return head + pass_summary(rows, plots);
+    if (suite.name == "resolution") return head + resolution_summary(rows);
+    if (suite.name == "ingredients") return head + ingredient_summary(rows, plots);
     return head + error_time_summary(rows, plots);
 }
 

@@ -121,6 +121,7 @@ std::string Configuration::name() const {
 
 std::string Point::subject() const {
     std::string text = fmt::format("{}-{}x{}", place->name, size.x, size.y);
+    text += pose.name();
     if (edit.lamps >= 0) text += fmt::format("-lamps{}", edit.lamps);
     if (!light_transmittance) text += "-light_unattenuated";
     if (edit.spheres >= 0) text += fmt::format("-spheres{}", edit.spheres);

@@ -27,15 +27,16 @@ void add_bench_command(CLI::App& app) {
     command->add_option("--repeats", o->repeats, "timed frames of each configuration")
         ->check(CLI::Range(1, 1000))
         ->capture_default_str();
-    auto* reference =
-        command->add_option("--reference", o->reference,
-                            "ground truth: cpu, or gpu, the technique reference (the default of convergence)");
-    reference->check(CLI::IsMember({"cpu", "gpu"}))->capture_default_str();
+    auto* reference = command->add_option(
+        "--reference", o->reference,
+        "ground truth: cpu; gpu, the technique reference (the default of convergence); or march, "
+        "the limit of ray_march (the default of what shows sampling)");
+    reference->check(CLI::IsMember({"cpu", "gpu", "march"}))->capture_default_str();
     command->add_option("--references", *references, "folder of ground truths, kept (default: OUT/references)");
     command->add_option("--context", o->context, "auto, egl, osmesa or glfw")->capture_default_str();
     command->add_flag("--resume,!--no-resume", o->resume, "go on from what OUT holds (default), or begin anew");
     command->callback([o, references, reference] {
-        if (reference->count() == 0 && o->suite == "convergence") o->reference = "gpu";
+        if (reference->count() == 0) o->reference = bench::default_reference(o->suite);
         if (!references->empty()) o->references = *references;
         o->command_line = fmt::format("tyndall bench --suite {} --size {} --repeats {} --reference {}", o->suite,
                                       o->size, o->repeats, o->reference);

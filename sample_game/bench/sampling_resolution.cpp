@@ -1,0 +1,67 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "sample_game/bench/markdown.h"
+#include "sample_game/bench/sampling.h"
+
+namespace tyndall::bench {
+
+std::vector<Group> resolution_groups(const Place& place, const PlaceFacts& facts, const SuiteRequest& request) {
+    Group group{place.name, {}, facts};
+    const auto add = [&](const std::string& name, std::vector<std::string> settings) {
+        Point p;
+        p.place = &bench::place(place.name);
+        p.size = request.size;
+        p.configuration.family = name;
+        p.configuration.settings = std::move(settings);
+        p.configuration.weight = 12;
+        group.points.push_back(std::move(p));
+    };
+    add("full", {"technique=ray_march", "steps=8", "resolution=full"});
+    for (const char* resolution : {"half", "quarter"})
+        for (const char* upsample : {"nearest", "bilinear", "bilateral", "nearest_depth"})
+            for (const char* depth : {"min", "max", "checkerboard"})
+                add(fmt::format("{}, {}, {}", resolution, upsample, depth),
+                    {"technique=ray_march", "steps=8", std::string("resolution=") + resolution,
+                     std::string("upsample=") + upsample, std::string("resolution_depth=") + depth});
+    // Of twice the steps: what half the resolution leaves time for.
+    add("half, bilateral, checkerboard, 32 steps", {"technique=ray_march", "steps=32", "resolution=half",
+                                                    "upsample=bilateral", "resolution_depth=checkerboard"});
+    return {group};
+}
+
+std::string resolution_summary(const std::vector<Row>& rows) {
+    const std::vector<std::string> places = place_names(rows);
+    std::vector<std::string> names, head{""};
+    for (const Row& row : rows)
+        if (row.compared() && std::ranges::count(names, row.point->configuration.family) == 0)
+            names.push_back(row.point->configuration.family);
+    head.insert(head.end(), places.begin(), places.end());
+    const auto table = [&](const std::string& title, const std::function<std::string(const Row&)>& cell) {
+        std::vector<std::vector<std::string>> lines{head};
+        for (const std::string& name : names) {
+            lines.push_back({name});
+            for (const std::string& place : places) {
+                const std::vector<Row> here = of_place(rows, place);
+                const auto row = std::ranges::find(
+                    here, name, [](const Row& r) -> const std::string& { return r.point->configuration.family; });
+                lines.back().push_back(row == here.end() || !row->compared() ? "" : cell(*row));
+            }
+        }
+        return fmt::format("## {}\n\n{}", title, markdown_table(lines));
+    };
+    return table("Error", [](const Row& r) { return three(r.measured->errors->scattering); }) +
+           table("Error at depth edges over error elsewhere",
+                 [](const Row& r) {
+                     const Errors& e = *r.measured->errors;
+                     return fmt::format("{} / {} = {:.2f}", three(e.edge), three(e.rest), e.edge / e.rest);
+                 }) +
+           "Within two pixels of a depth step of a tenth, and all other pixels; each RMSE over the mean of the "
+           "whole "
+           "picture.\n\n" +
+           table("Time of volumetrics (ms, least of all frames)",
+                 [](const Row& r) { return three(r.volumetrics.least); });
+}
+
+}  // namespace tyndall::bench
