@@ -112,7 +112,7 @@ float visibility_on_screen(Ray ray, float depth, float surface) {
     Line line = line_to_sun(ray.uv);
     uint samples = uint(volumetrics.fog.y);
     float offset = noise_offset(uvec2(gl_FragCoord.xy));
-    float place = volumetrics.counts.w > 1u ? fract(offset * 39.55) : 0.5;  // another sequence than the samples'
+    float place = volumetrics.noise.x != NOISE_NONE ? fract(offset * 39.55) : 0.5;  // another sequence than the samples'
     uint shadowed = 0u;
     float u_before = 0.0, before = depth, share_before = 1.0;
     for (uint i = 0u; i <= samples; ++i) {

@@ -44,7 +44,7 @@ Outputs add_fog_pass(PassList& passes, const PassResources& resources, const Inp
             const BoundTextures bound{{texture(depth), resources.nearest},
                                       {texture(visibility), resources.nearest}};
             resources.uniforms.bind(GL_UNIFORM_BUFFER, BINDING_VOLUMETRICS);
-            resources.noise.bind(GL_SHADER_STORAGE_BUFFER, BINDING_NOISE);
+            resources.noise.bind();
             shader.use();
             gl::draw_fullscreen();
         });

@@ -70,7 +70,7 @@ Outputs add_march(PassList& passes, const PassResources& resources, const Inputs
                                       {texture(froxels.emission), resources.linear}};
             resources.uniforms.bind(GL_UNIFORM_BUFFER, BINDING_VOLUMETRICS);
             resources.light_volumes.bind();
-            resources.noise.bind(GL_SHADER_STORAGE_BUFFER, BINDING_NOISE);
+            resources.noise.bind();
             shader.use();
             gl::draw_fullscreen();
         });

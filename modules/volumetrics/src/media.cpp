@@ -208,8 +208,7 @@ FrameMedia gather_media(const Inputs& inputs, const Settings& settings) {
     media.data.march.w = media.chromatic && !media.local.empty() ? 1.0F : 0.0F;
     media.data.counts.z = static_cast<unsigned>(settings.steps);
     media.data.counts.w = static_cast<unsigned>(noise_side(settings));
-    media.data.noise = {static_cast<unsigned>(settings.noise), static_cast<unsigned>(settings.noise_time),
-                        inputs.frame_index, 0};
+    media.data.noise = noise_uniform(settings, inputs.frame_index);
     media.data.options.x = phase_option(settings.phase);
     media.data.phase_back = {settings.phase_back_anisotropy, settings.phase_back_weight, 0, 0};
     media.data.options.y = settings.light_transmittance ? 1U : 0U;

@@ -5,6 +5,7 @@
 #include "engine/shader/shader_library.h"
 #include "light_volume.h"
 #include "media.h"
+#include "noise.h"
 #include "volumetrics/outputs.h"
 
 namespace tyndall::volumetrics {
@@ -22,8 +23,9 @@ class TemporalHistory;
 struct PassResources {
     ShaderLibrary& shaders;
     gl::Sampler nearest = {}, linear = {};
-    gl::Buffer uniforms = {}, local_media = {}, media_tiles = {}, noise = {}, unfinished = {}, sprites = {};
+    gl::Buffer uniforms = {}, local_media = {}, media_tiles = {}, unfinished = {}, sprites = {};
     LightVolumes light_volumes = {};
+    NoiseSource noise = {};
 };
 
 [[nodiscard]] FroxelMedia add_inject_media(PassList& passes, const PassResources& resources, const Inputs& inputs,

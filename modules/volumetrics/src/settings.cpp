@@ -83,7 +83,8 @@ const SettingsTable& settings_table() {
                     {"noise_time", "Noise in time",
                      "How the noise changes from frame to frame, for what averages frames: not at all; in its own way "
                      "(the next slice of a texture, other white noise, a shifted gradient; a tile by the golden ratio); "
-                     "all offsets by the golden ratio; or all pixels by the R2 sequence."},
+                     "all offsets by the golden ratio; or all pixels by the R2 sequence times the side of the tile, or times "
+                     "128 px."},
                     {"fixed", "own", "golden_ratio", "r2"}, Effect::uniform)
             .choice(&S::fast_space, {"fast_space", "FAST in space", "Spatial filter that the noise fast was made for."},
                     {"gaussian1", "box3", "box5", "binomial3", "binomial5"}, Effect::resource)

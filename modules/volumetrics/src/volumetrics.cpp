@@ -5,13 +5,11 @@
 #include <optional>
 #include <set>
 #include <string_view>
-#include <tuple>
 
 #include "engine/core/check.h"
 #include "froxel_history.h"
 #include "froxel_passes.h"
 #include "froxel_tiles.h"
-#include "noise.h"
 #include "passes.h"
 #include "reconstruction.h"
 #include "shaders/shared/bindings.h"
@@ -73,7 +71,6 @@ struct Volumetrics::Impl {
     FroxelHistory froxel_history;
     TemporalHistory temporal_history;
     std::optional<FroxelMedia> local_froxels;  ///< of this frame, once they are made
-    std::tuple<Noise, int> noise_key{};
     bool count_work = false;
     bool light_passes_added = false;  ///< since `prepare`
 
@@ -82,7 +79,7 @@ struct Volumetrics::Impl {
         resources.uniforms = {};
         resources.local_media = {};
         resources.media_tiles = {};
-        resources.noise = {};
+        resources.noise.release();
         resources.unfinished = {};
         resources.sprites = {};
     }
@@ -171,12 +168,7 @@ struct Volumetrics::Impl {
             resources.unfinished = gl::Buffer(16, "volumetrics unfinished lamps");
         if (settings.technique != Technique::billboards && settings.technique != Technique::particles)
             resources.sprites = {};
-        const std::tuple key(settings.noise, noise_side(settings));
-        if (!resources.noise || key != noise_key) {
-            const std::vector<float> tile = noise_tile(settings.noise, settings.noise_size);
-            resources.noise = gl::Buffer::of(std::span<const float>(tile), "volumetrics noise tile");
-            noise_key = key;
-        }
+        resources.noise.prepare(settings);
     }
 };
 
@@ -241,7 +233,7 @@ void Volumetrics::bind_uniforms() const {
 
 std::size_t Volumetrics::persistent_bytes() const {
     const PassResources& r = impl_->resources;
-    return r.uniforms.size() + r.local_media.size() + r.media_tiles.size() + r.noise.size() + r.sprites.size() +
+    return r.uniforms.size() + r.local_media.size() + r.media_tiles.size() + r.noise.bytes() + r.sprites.size() +
            impl_->froxel_history.bytes() + impl_->temporal_history.bytes() +
            r.light_volumes.bytes();
 }

@@ -174,5 +174,41 @@ TEST(VolumetricsMedia, NoiseTilesHoldEveryOffsetOnce) {
         }
 }
 
+// Of 256 shuffled values the correlation has a standard deviation of 1/16.
+TEST(VolumetricsMedia, TheShuffledTileIsUncorrelated) {
+    const std::vector<float> tile = noise_tile(Noise::white_tile, 16);
+    const auto correlation = [&](std::size_t right, std::size_t down) {
+        double sum = 0;
+        for (std::size_t i = 0; i < 256; ++i)
+            sum += 12 * (tile[i] - 0.5) * (tile[(i % 16 + right) % 16 + (i / 16 + down) % 16 * 16] - 0.5) / 256;
+        return sum;
+    };
+    EXPECT_NEAR(correlation(0, 0), 1, 0.01);
+    for (std::size_t i = 1; i < 9; ++i) {
+        EXPECT_NEAR(correlation(i, 0), 0, 0.22) << i;
+        EXPECT_NEAR(correlation(0, i), 0, 0.22) << i;
+        EXPECT_NEAR(correlation(i, i), 0, 0.22) << i;
+    }
+}
+
+TEST(VolumetricsMedia, OnlyNoiseThatChangesInTimeKnowsTheFrame) {
+    Settings settings;
+    settings.noise_time = NoiseTime::fixed;
+    EXPECT_EQ(noise_uniform(settings, 7).z, 0U);
+    settings.noise_time = NoiseTime::r2;
+    EXPECT_EQ(noise_uniform(settings, 7), glm::uvec4(NOISE_BAYER, NOISE_TIME_R2, 7, 0));
+    settings.noise = Noise::none;
+    EXPECT_EQ(noise_uniform(settings, 7).z, 0U);
+    // A tile has no slices of its own.
+    settings.noise_time = NoiseTime::own;
+    settings.noise = Noise::white_tile;
+    EXPECT_EQ(noise_uniform(settings, 7).y, unsigned(NOISE_TIME_GOLDEN_RATIO));
+    settings.noise = Noise::fast;
+    EXPECT_EQ(noise_uniform(settings, 7), glm::uvec4(NOISE_FAST, NOISE_TIME_OWN, 7, 0));
+    settings.fast_space = SpatialKernel::box5;
+    settings.fast_time = TemporalKernel::box8;
+    EXPECT_EQ(noise_texture_name(settings), "fast_box8_box5_128x128x32_r8.raw");
+}
+
 }  // namespace
 }  // namespace tyndall::volumetrics
