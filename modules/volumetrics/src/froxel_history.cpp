@@ -11,12 +11,15 @@ namespace {
 
 const ProgramDesc program{.name = "volumetrics/froxel_history",
                           .stages = {{GL_COMPUTE_SHADER, "shaders/volumetrics/froxel_history.comp"}},
-                          .axes = {{"HAS_SUN", {0, 1}}, {"HAS_LAMPS", {0, 1}}, {"COUNT_WORK", {0, 1}}},
+                          .axes = {{"HAS_SUN", {0, 1}},
+                                   {"HAS_LAMPS", {0, 1}},
+                                   {"HISTORY", {0, 1, 2}},  // none, of another camera, of the same
+                                   {"COUNT_WORK", {0, 1}}},
                           .valid = [](const Permutation& p) { return p.at("HAS_SUN") + p.at("HAS_LAMPS") > 0; }};
 const ProgramRegistry::Registration registration(program);
 
-/// Group size of froxel_history.comp.
-constexpr glm::ivec3 group{8, 8, 4};
+/// Froxels of a group of froxel_history.comp: its columns, and RUN.
+constexpr glm::ivec3 group{16, 16, 16};
 
 /// Turn of the sun [rad] after which a mean of its visibility is worth one frame: it moves the shadow of something
 /// 20 m away by 0.2 m, the size of a froxel at 25 m.
@@ -86,7 +89,7 @@ TextureRef add_froxel_history(PassList& passes, const PassResources& resources, 
     const auto import = [&](const gl::Texture& texture, const char* name) {
         return texture ? passes.import(name, texture) : TextureRef();
     };
-    const bool valid = history.valid();
+    const int kind = !history.valid() ? 0 : history.still() ? 2 : 1;
     const TextureRef visibility_before =
         import(history.visibility().previous(), "volumetrics/froxel_visibility_before");
     const TextureRef certainty_before =
@@ -94,8 +97,10 @@ TextureRef add_froxel_history(PassList& passes, const PassResources& resources, 
     TextureRef visibility = import(history.visibility().current(), "volumetrics/froxel_visibility_kept");
     TextureRef certainty = import(history.certainty().current(), "volumetrics/froxel_certainty_kept");
     TextureRef radiance = light.radiance;
-    const gl::Program& shader = resources.shaders.get(
-        program, {{"HAS_SUN", inputs.has_sun}, {"HAS_LAMPS", inputs.has_lamps}, {"COUNT_WORK", inputs.count_work}});
+    const gl::Program& shader = resources.shaders.get(program, {{"HAS_SUN", inputs.has_sun},
+                                                                {"HAS_LAMPS", inputs.has_lamps},
+                                                                {"HISTORY", kind},
+                                                                {"COUNT_WORK", inputs.count_work}});
     const glm::ivec3 size{settings.froxels_x, settings.froxels_y, settings.froxels_z};
     passes.add(
         "volumetrics/froxel_history",
@@ -118,8 +123,7 @@ TextureRef add_froxel_history(PassList& passes, const PassResources& resources, 
             glBindImageTexture(1, context.texture(visibility).id, 0, GL_TRUE, 0, GL_WRITE_ONLY, GL_RGBA16);
             glBindImageTexture(2, context.texture(certainty).id, 0, GL_TRUE, 0, GL_WRITE_ONLY, GL_RGBA16);
             resources.uniforms.bind(GL_UNIFORM_BUFFER, BINDING_VOLUMETRICS);
-            shader.set("history", valid ? history.still() ? 2 : 1 : 0);
-            history.set_uniforms(shader);
+            if (kind == 1) history.set_uniforms(shader);
             shader.set("most_frames", glm::vec2(frames, std::min(frames, history.sun_frames())));
             shader.use();
             glDispatchCompute(groups.x, groups.y, groups.z);
