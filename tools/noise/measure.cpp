@@ -25,31 +25,41 @@ double sum_of_squares(const std::vector<double>& v) {
     return sum;
 }
 
-/// Along one axis of `count` values `stride` apart, wrapping: out(i) = sum_j taps[j] in(i - j + centre).
+// Along one axis of `count` values `stride` apart. The lines along it lie side by side in memory, so they are the
+// innermost loop.
+
+/// Wrapping: out(i) = sum_j taps[j] in(i - j + centre); `count` is a power of two.
 std::vector<double> filter(const std::vector<double>& in, const std::vector<double>& taps, std::size_t count,
                            std::size_t stride, std::size_t centre) {
     std::vector<double> out(in.size(), 0.0);
-    for (std::size_t i = 0; i < in.size(); ++i) {
-        const std::size_t at = i / stride % count, line = i - at * stride;
-        for (std::size_t j = 0; j < taps.size(); ++j)
-            out[i] += taps[j] * in[line + (at + count - j + centre) % count * stride];
-    }
+    for (std::size_t begin = 0; begin < in.size(); begin += count * stride)
+        for (std::size_t i = 0; i < count; ++i)
+            for (std::size_t j = 0; j < taps.size(); ++j) {
+                double* to = out.data() + begin + i * stride;
+                const double* from = in.data() + begin + ((i + count - j + centre) & (count - 1)) * stride;
+                for (std::size_t line = 0; line < stride; ++line) to[line] += taps[j] * from[line];
+            }
     return out;
 }
 
-/// Power of the transform of `count` values `stride` apart; all lines, by tables of sine and cosine.
+/// Fourier: out(k) = sum_j in(j) exp(-2 pi i j k / count); `count` is a power of two.
 std::vector<std::complex<double>> transform(const std::vector<std::complex<double>>& in, std::size_t count,
                                             std::size_t stride) {
-    std::vector<std::complex<double>> turn, out(in.size());
+    std::vector<std::complex<double>> turns, out(in.size());
     for (std::size_t i = 0; i < count; ++i)
-        turn.push_back(
+        turns.push_back(
             std::polar(1.0, -2 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(count)));
-    for (std::size_t i = 0; i < in.size(); ++i) {
-        const std::size_t k = i / stride % count, line = i - k * stride;
-        std::complex<double> sum = 0;
-        for (std::size_t j = 0; j < count; ++j) sum += in[line + j * stride] * turn[j * k % count];
-        out[i] = sum;
-    }
+    for (std::size_t begin = 0; begin < in.size(); begin += count * stride)
+        for (std::size_t k = 0; k < count; ++k)
+            for (std::size_t j = 0; j < count; ++j) {
+                const double re = turns[j * k & (count - 1)].real(), im = turns[j * k & (count - 1)].imag();
+                std::complex<double>* to = out.data() + begin + k * stride;
+                const std::complex<double>* from = in.data() + begin + j * stride;
+                // Not by operator*, which looks for infinities.
+                for (std::size_t line = 0; line < stride; ++line)
+                    to[line] += std::complex(from[line].real() * re - from[line].imag() * im,
+                                             from[line].real() * im + from[line].imag() * re);
+            }
     return out;
 }
 
