@@ -95,8 +95,9 @@ const SettingsTable& settings_table() {
                     {"ema", "box8"}, Effect::resource)
             .choice(&S::filter,
                     {"filter", "Filter",
-                     "Spatial filter that takes noise away; all are separable, gaussian15 of chosen width in 15 taps a "
-                     "direction, uniform9 the mean of 9."},
+                     "Spatial filter that takes noise away, in two passes: mean of 3 or 5 pixels each way, Gaussian of "
+                     "sigma 1 in 7 taps, binomial of 3 or 5 taps, Gaussian of chosen sigma in 15 taps, or mean of 9 "
+                     "(uniform9). What lies outside of the picture is left out."},
                     {"none", "box3", "box5", "gaussian1", "binomial3", "binomial5", "gaussian15", "uniform9"},
                     Effect::permutation)
             .real(&S::filter_sigma,
@@ -106,7 +107,7 @@ const SettingsTable& settings_table() {
             .choice(&S::filter_depth,
                     {"filter_depth", "Filter and depth",
                      "Whether the filter stops at depth edges: not at all; where depth differs from the pixel's; or "
-                     "where it differs from the plane that the pixel lies in, so that grazing floors are filtered."},
+                     "where it also differs from the plane that the pixel lies in, so that grazing floors are filtered."},
                     {"none", "relative", "plane"}, Effect::permutation)
             .real(&S::filter_depth_falloff,
                   {"filter_depth_falloff", "Filter depth falloff",
