@@ -17,6 +17,7 @@ struct Options {
     std::string output;
     std::optional<std::string> stats;
     int frames = 1;
+    double frame_time = 0;  ///< s between frames
     std::string layer = "color";
 };
 
@@ -27,11 +28,11 @@ void run(const Options& o) {
     Session session(o.draw, false);
     session.options.layer = o.layer;
     session.options.count_work = o.stats.has_value();
-    animate(session.scene, o.view.time);
-    const View view = o.view.view(session.scene, session.size);
-    for (int i = 0; i < o.frames; ++i) {
-        if (o.stats && i == o.frames - 1) session.timer->set_mode(session.timer_mode());
-        session.draw(view, o.view.time);
+    for (int left = o.frames - 1; left >= 0; --left) {
+        if (o.stats && left == 0) session.timer->set_mode(session.timer_mode());
+        const double time = o.view.time - left * o.frame_time;
+        animate(session.scene, time);
+        session.draw(o.view.view(session.scene, session.size), time);
     }
     const bool display = o.output.ends_with(".png") && o.layer == "color";
     write_image(o.output, display ? session.renderer->read_display() : session.renderer->read_layer());
@@ -48,6 +49,11 @@ void add_render_command(CLI::App& app) {
     o->view.add_to(*command);
     command->add_option("--frames", o->frames, "frames drawn before the picture is taken")
         ->check(CLI::Range(1, 100000))
+        ->capture_default_str();
+    command
+        ->add_option("--frame-time", o->frame_time,
+                     "seconds from frame to frame, the last is at --time; 0: nothing moves")
+        ->check(CLI::Range(0.0, 10.0))
         ->capture_default_str();
     command->add_option("--layer", o->layer, "what to write")
         ->check(CLI::IsMember(Renderer::layer_names()))

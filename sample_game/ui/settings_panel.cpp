@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "sample_game/ui/curve_editor.h"
+#include "sample_game/ui/settings_sections.h"
 
 namespace tyndall {
 namespace {
@@ -112,14 +113,56 @@ void row(const Setting& s, void* object) {
     if (ImGui::IsItemClicked(ImGuiMouseButton_Right)) s.set(object, s.default_value);
 }
 
+/// The rows of one section, or of none (null).
+void rows(const SettingsSet::Group& group, const SettingsSection* section) {
+    const bool sections = group.table == &volumetrics::settings_table();
+    for (const Setting& s : group.table->settings())
+        if ((sections ? section_of(s.key) : nullptr) == section && !curve_row(group, s)) row(s, group.object);
+}
+
+std::string heading(const SettingsSet::Group& group, const SettingsSection& section) {
+    for (const Setting& s : group.table->settings())
+        if (s.key == section.summary)
+            return fmt::format("{}: {}###{}", section.title, value_text(s, s.get(group.object)), section.title);
+    return section.title;
+}
+
+void acceptance_row(bool& show, bool temporal) {
+    ImGui::BeginDisabled(!temporal);
+    ImGui::Checkbox("Show acceptance", &show);
+    ImGui::EndDisabled();
+    if (ImGui::IsItemHovered())
+        ImGui::SetTooltip("Share of earlier frames in each pixel's light:\nred none, green all of it.");
+}
+
+void section_rows(const SettingsSet::Group& group, const SettingsSection& section, bool& show_acceptance) {
+    const auto& settings = *static_cast<const volumetrics::Settings*>(group.object);
+    if (!matters(section, settings.technique)) return;
+    const bool own = section.own == settings.technique;
+    ImGui::PushID(own ? "own" : "");  // a technique's own section is folded where it is another's, too
+    const bool open =
+        ImGui::TreeNodeEx(heading(group, section).c_str(),
+                          ImGuiTreeNodeFlags_FramePadding | ImGuiTreeNodeFlags_SpanAvailWidth |
+                              ImGuiTreeNodeFlags_NoAutoOpenOnLog | (own ? ImGuiTreeNodeFlags_DefaultOpen : 0));
+    if (open) {
+        rows(group, &section);
+        if (section.summary == "temporal")
+            acceptance_row(show_acceptance, settings.temporal != volumetrics::Temporal::off);
+        ImGui::TreePop();
+    }
+    ImGui::PopID();
+}
+
 }  // namespace
 
-void settings_panel(SettingsSet& settings) {
+void settings_panel(SettingsSet& settings, bool& show_acceptance) {
     for (const SettingsSet::Group& group : settings.groups()) {
         if (!ImGui::CollapsingHeader(group.table->title().c_str(), ImGuiTreeNodeFlags_DefaultOpen)) continue;
         ImGui::PushItemWidth(ImGui::GetContentRegionAvail().x * 0.5f);
-        for (const Setting& s : group.table->settings())
-            if (!curve_row(group, s)) row(s, group.object);
+        rows(group, nullptr);
+        if (group.table == &volumetrics::settings_table())
+            for (const SettingsSection& section : settings_sections())
+                section_rows(group, section, show_acceptance);
         ImGui::PopItemWidth();
     }
 }

@@ -5,7 +5,8 @@
 namespace tyndall {
 
 /// A widget per row of every settings table: slider, combo or check box, with help and unit as a tooltip and a
-/// reset by right click.
-void settings_panel(SettingsSet& settings);
+/// reset by right click. Those of the volumetrics module in sections that fold (settings_sections.h), of which only
+/// those that matter to the chosen technique are there. `show_acceptance`: FrameOptions.
+void settings_panel(SettingsSet& settings, bool& show_acceptance);
 
 }  // namespace tyndall

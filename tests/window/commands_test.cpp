@@ -51,7 +51,7 @@ TEST(List, EverySettingHasARangeThatItsDefaultKeeps) {
     const CommandResult result = run_tyndall({"list", "settings"});
     EXPECT_EQ(result.exit_code, 0);
     EXPECT_NE(result.out.find("steps"), std::string::npos);
-    EXPECT_NE(result.out.find("[none, white, bayer]"), std::string::npos);
+    EXPECT_NE(result.out.find("[none, bayer, white"), std::string::npos);
     const CommandResult markdown = run_tyndall({"list", "settings", "--markdown"});
     EXPECT_NE(markdown.out.find("| `filter` |"), std::string::npos);
     EXPECT_EQ(run_tyndall({"list"}).exit_code, 2);

@@ -1,10 +1,12 @@
 // The game in a window, as a player uses it: real key and mouse events through the X server.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 
 #include "engine/scene/scene.h"
+#include "sample_game/ui/settings_sections.h"
 #include "support/game_process.h"
 #include "volumetrics/settings.h"
 
@@ -47,26 +49,41 @@ double mean_difference(const Image& a, const Image& b) {
 struct Row {
     static constexpr int x = 120, first_y = 187, height = 23, popup = 24, item = 17;
 
-    static int y(const std::string& key) {
-        int row = 0;
-        for (const Setting& s : volumetrics::settings_table().settings()) {
-            if (s.key == key) return first_y + row * height;
-            ++row;
+    static std::vector<std::string> keys(const SettingsSection* section) {
+        std::vector<std::string> keys;
+        for (const Setting& s : volumetrics::settings_table().settings())
+            if (section_of(s.key) == section) keys.push_back(s.key);
+        return keys;
+    }
+    /// Of the section's heading, while only the technique's own section is open, as at first.
+    static int heading_y(const SettingsSection* section, volumetrics::Technique technique) {
+        std::size_t row = keys(nullptr).size();
+        for (const SettingsSection& s : settings_sections()) {
+            if (!matters(s, technique)) continue;
+            if (&s == section) return first_y + static_cast<int>(row) * height;
+            row += 1 + (s.own == technique ? keys(&s).size() : 0);
         }
-        throw std::runtime_error("no setting " + key);
+        throw std::runtime_error("no such section for this technique");
     }
 };
 
-/// Opens the setting's combo and chooses its `index`th value.
-void choose(GameProcess& game, const std::string& key, int index) {
+/// Opens the section of a technique's setting and its combo and chooses its `index`th value. The section stays
+/// open, so that settings are to be chosen from the last section upwards.
+void choose(GameProcess& game, volumetrics::Technique technique, const std::string& key, int index) {
     const auto click = [&](int y) {
         game.move_pointer(Row::x, y);
         game.frames(1);
         game.click();
         game.frames(2);
     };
-    click(Row::y(key));
-    click(Row::y(key) + Row::popup + index * Row::item);
+    const SettingsSection* section = section_of(key);
+    const std::vector<std::string> keys = Row::keys(section);
+    const auto place = std::ranges::find(keys, key) - keys.begin();
+    const int heading = Row::heading_y(section, technique),
+              row = heading + Row::height * (static_cast<int>(place) + 1);
+    click(heading);
+    click(row);
+    click(row + Row::popup + index * Row::item);
 }
 
 TEST(Window, WalkLookAndTheDebugUi) {
@@ -124,12 +141,13 @@ TEST(Window, WalkLookAndTheDebugUi) {
     EXPECT_GT(mean_difference(blurred.picture, turned.picture), 0.01) << "fog";
     const double noise = mean_difference(blurred.picture, same.picture);
 
-    choose(game, "filter", 0);
+    constexpr auto march = volumetrics::Technique::ray_march;
+    choose(game, march, "filter", 0);
     const GameProcess::State grainy = game.state();
     EXPECT_EQ(setting(grainy, "filter"), "none");
     EXPECT_GT(mean_difference(grainy.picture, blurred.picture), 2 * noise + 0.5 / 255);
 
-    choose(game, "noise", 0);
+    choose(game, march, "noise", 0);
     const GameProcess::State banded = game.state();
     EXPECT_EQ(setting(banded, "noise"), "none");
     EXPECT_GT(mean_difference(banded.picture, grainy.picture), 2 * noise + 0.5 / 255);
