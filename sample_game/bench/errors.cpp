@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "engine/core/flip.h"
+#include "engine/core/image_edges.h"
 #include "engine/core/image_metrics.h"
 
 namespace tyndall::bench {
@@ -21,6 +22,13 @@ void start(Session& session, const View& view, const Point& point) {
 double count_invalid(const Image& image, float max) {
     return static_cast<double>(
         std::ranges::count_if(image.pixels, [max](float v) { return !std::isfinite(v) || v < 0 || v > max; }));
+}
+
+Image first_channel(const Image& image) {
+    Image first(image.size, 1);
+    for (std::size_t i = 0; i < first.pixels.size(); ++i)
+        first.pixels[i] = image.pixels[i * static_cast<std::size_t>(image.channels)];
+    return first;
 }
 
 std::vector<glm::vec3> switch_off(Scene& scene) {
@@ -62,32 +70,6 @@ Image kept(const Image& image, const std::vector<bool>& keep) {
     return row;
 }
 
-std::vector<bool> near_depth_edge(const Image& depth) {
-    const auto edge = [&](int x, int y) {
-        const float here = *depth.at(x, y);
-        for (const glm::ivec2 n : {glm::ivec2(x - 1, y), {x + 1, y}, {x, y - 1}, {x, y + 1}}) {
-            if (n.x < 0 || n.y < 0 || n.x >= depth.size.x || n.y >= depth.size.y) continue;
-            const float there = *depth.at(n.x, n.y);
-            if (std::max(here, there) > 1.1f * std::min(here, there)) return true;
-        }
-        return false;
-    };
-    std::vector<bool> near(depth.pixels.size() / static_cast<std::size_t>(depth.channels));
-    for (int y = 0; y < depth.size.y; ++y)
-        for (int x = 0; x < depth.size.x; ++x) {
-            if (!edge(x, y)) continue;
-            for (int v = std::max(y - 2, 0); v <= std::min(y + 2, depth.size.y - 1); ++v)
-                for (int u = std::max(x - 2, 0); u <= std::min(x + 2, depth.size.x - 1); ++u)
-                    near[std::size_t(v) * std::size_t(depth.size.x) + std::size_t(u)] = true;
-        }
-    return near;
-}
-
-double part_relative_rmse(const Image& image, const Image& reference, const std::vector<bool>& part) {
-    if (std::ranges::count(part, true) == 0) return 0;
-    return compare_images(kept(image, part), kept(reference, part)).rmse / mean_value(reference);
-}
-
 double dim_relative_rmse(const Image& image, const Image& reference, double part) {
     const std::size_t channels = static_cast<std::size_t>(reference.channels);
     const auto brightness = [&](std::size_t pixel) {
@@ -116,12 +98,10 @@ Errors measure_errors(Session& session, const View& view, const Point& point, co
     errors.scattering = relative_rmse(scattering, reference);
     errors.dim = dim_relative_rmse(scattering, reference, 0.98);
     errors.invalid = count_invalid(drawn[0], std::numeric_limits<float>::max());
-    std::vector<bool> edge = near_depth_edge(truth.depth), rest = edge;
-    rest.flip();
-    for (std::size_t i = 0; i < same.size(); ++i)
-        if (!same[i]) edge[i] = rest[i] = false;
-    errors.edge = part_relative_rmse(drawn[0], truth.scattering, edge);
-    errors.rest = part_relative_rmse(drawn[0], truth.scattering, rest);
+    const Image band = edge_band(first_channel(truth.depth), 2);
+    const MaskedError parts = masked_relative_rmse(scattering, reference, kept(band, same));
+    errors.edge = parts.inside;
+    errors.rest = parts.outside;
     if (!display) return errors;
     errors.transmittance = compare_images(kept(drawn[2], same), kept(truth.transmittance, same)).rmse;
     errors.invalid += count_invalid(drawn[2], 1.0f);

@@ -17,12 +17,6 @@ namespace tyndall::bench {
 /// The pixels to keep, in one row.
 [[nodiscard]] Image kept(const Image& image, const std::vector<bool>& keep);
 
-/// Pixels at most two away, across and down, from one whose depth differs by more than a tenth from a neighbour's.
-/// Sky, at 0, differs from all else.
-[[nodiscard]] std::vector<bool> near_depth_edge(const Image& depth);
-/// RMSE over some pixels, over the mean of the whole reference. 0 without such pixels.
-[[nodiscard]] double part_relative_rmse(const Image& image, const Image& reference, const std::vector<bool>& part);
-
 /// relative_rmse() (image_metrics.h) without the brightest pixels of the reference: those whose largest channel is
 /// above the quantile `part`, 0 to 1. A lamp's glow has no upper bound, and one pixel of it can outweigh a picture.
 [[nodiscard]] double dim_relative_rmse(const Image& image, const Image& reference, double part);

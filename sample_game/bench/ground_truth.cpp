@@ -55,6 +55,7 @@ GroundTruth from_march(Session& session, const View& view, const Point& point) {
     for (const char* assignment : {"technique=ray_march", "noise=bayer", "noise_size=16", "noise_time=golden_ratio",
                                    "filter=none", "resolution=full", "temporal=off"})
         session.settings.set(assignment);
+    for (const std::string& assignment : few_froxels()) session.settings.set(assignment);
     session.settings.set(128.0 * static_cast<double>(lamps) < loop_limit ? "steps=128" : "steps=64");
     session.size = point.size;
     session.options.frame_index = 0;
@@ -63,6 +64,11 @@ GroundTruth from_march(Session& session, const View& view, const Point& point) {
 }
 
 }  // namespace
+
+const std::vector<std::string>& few_froxels() {
+    static const std::vector<std::string> settings{"froxels_x=40", "froxels_y=24", "froxels_z=32"};
+    return settings;
+}
 
 TruthKind truth_kind(const std::string& name) {
     TYNDALL_CHECK(name == "cpu" || name == "gpu" || name == "march");

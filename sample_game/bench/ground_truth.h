@@ -13,6 +13,9 @@ namespace tyndall::bench {
 /// `tyndall reference`; the technique `reference`; or what ray_march tends to with more samples, which leaves
 /// errors of sampling only.
 enum class TruthKind { cpu, gpu, march };
+/// The froxels of suites that have this last truth, which is drawn with them: fewer, as pictures are small and all
+/// techniques and settings share them.
+[[nodiscard]] const std::vector<std::string>& few_froxels();
 [[nodiscard]] TruthKind truth_kind(const std::string& name);  ///< cpu, gpu or march: a failed check otherwise
 
 struct GroundTruth {

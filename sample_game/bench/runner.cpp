@@ -44,8 +44,7 @@ Runner::Runner(const BenchOptions& options, const Suite& suite, Store& store, st
       store_(store),
       session_(session),
       editor_(std::make_unique<SceneEditor>(session->scene)),
-      truths_(options.references.value_or(options.out / "references"),
-              truth_kind(options.reference)) {}
+      truths_(options.references.value_or(options.out / "references"), truth_kind(options.reference)) {}
 
 void Runner::run(const std::function<void()>& done) {
     int frames = 0, points = 0;
@@ -103,6 +102,8 @@ void Runner::open(const Group& group) {
 
 View Runner::show(const Point& point) {
     session_->settings.reset_to_defaults();
+    if (options_.reference == "march")
+        for (const std::string& assignment : few_froxels()) session_->settings.set(assignment);
     for (const std::string& assignment : point.configuration.settings) session_->settings.set(assignment);
     if (!point.light_transmittance) session_->settings.set("light_transmittance", "false");
     session_->size = point.size;

@@ -15,32 +15,38 @@ struct Variant {
     std::string name;
     std::vector<std::string> settings;
     int history_frames = 0;
+    int most_steps = 64;
 };
 
 /// What is compared: first nothing, then one ingredient after the other.
 const std::vector<Variant>& variants() {
-    static const std::vector<Variant> list{
-        {"nothing", {"noise=none", "filter=none"}},
-        {"Bayer", {"noise=bayer", "filter=none"}},
-        {"FAST", {"noise=fast", "filter=none"}},
-        {"Bayer, gaussian15", {"noise=bayer", "filter=gaussian15", "filter_depth=relative"}},
-        {"FAST, gaussian15", {"noise=fast", "filter=gaussian15", "filter_depth=relative"}},
-        {"FAST, gaussian15 plane", {"noise=fast", "filter=gaussian15", "filter_depth=plane"}},
-        {"FAST, gaussian1 plane", {"noise=fast", "filter=gaussian1", "filter_depth=plane"}},
-        {"FAST, gaussian1 plane, half",
-         {"noise=fast", "filter=gaussian1", "filter_depth=plane", "resolution=half"}},
-        {"FAST, accumulate",
-         {"noise=fast", "noise_time=own", "filter=none", "temporal=accumulate", "temporal_clip=false"},
-         32},
-        {"FAST, gaussian1 plane, accumulate",
-         {"noise=fast", "noise_time=own", "filter=gaussian1", "filter_depth=plane", "temporal=accumulate",
-          "temporal_clip=false"},
-         32},
-        {"FAST, gaussian1 plane, accumulate, half",
-         {"noise=fast", "noise_time=own", "filter=gaussian1", "filter_depth=plane", "temporal=accumulate",
-          "temporal_clip=false", "resolution=half"},
-         32},
-    };
+    using Settings = std::vector<std::string>;
+    static const std::vector<Variant> list = [] {
+        const auto with = [](Settings a, const Settings& b) {
+            a.insert(a.end(), b.begin(), b.end());
+            return a;
+        };
+        const Settings bayer{"noise=bayer"}, fast{"noise=fast"}, unfiltered{"filter=none"};
+        const Settings wide{"filter=gaussian15", "filter_depth=relative"};
+        const Settings narrow{"filter=gaussian1", "filter_depth=plane"};
+        const Settings moving{"noise_time=golden_ratio"}, slices{"noise_time=own"};
+        const Settings history{"temporal=accumulate", "temporal_clip=false"};
+        constexpr int settled = 32;
+        return std::vector<Variant>{
+            {"nothing", with({"noise=none"}, unfiltered), 0, 256},
+            {"Bayer", with(bayer, unfiltered), 0, 256},
+            {"FAST", with(fast, unfiltered)},
+            {"Bayer, gaussian15", with(bayer, wide)},
+            {"Bayer, gaussian15, visibility", with(with(bayer, wide), {"reconstruct=visibility"})},
+            {"FAST, gaussian1", with(fast, narrow)},
+            {"Bayer, gaussian15, half", with(with(bayer, wide), {"resolution=half"})},
+            {"Bayer, history", with(with(with(bayer, moving), unfiltered), history), settled, 16},
+            {"FAST, history", with(with(with(fast, slices), unfiltered), history), settled, 16},
+            {"Bayer, gaussian1, history", with(with(with(bayer, moving), narrow), history), settled, 16},
+            {"Bayer, gaussian1, history, half",
+             with(with(with(with(bayer, moving), narrow), history), {"resolution=half"}), settled, 16},
+        };
+    }();
     return list;
 }
 
@@ -80,7 +86,7 @@ std::vector<Group> ingredient_groups(const Place& place, const PlaceFacts& facts
     Group group{place.name, {}, facts};
     for (const Variant& v : variants())
         for (const int steps : {1, 2, 4, 8, 16, 32, 64, 128, 256}) {
-            if (v.history_frames > 0 && steps > 64) continue;
+            if (steps > v.most_steps) continue;
             Point p;
             p.place = &bench::place(place.name);
             p.size = request.size;

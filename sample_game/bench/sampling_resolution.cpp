@@ -57,9 +57,7 @@ std::string resolution_summary(const std::vector<Row>& rows) {
                      const Errors& e = *r.measured->errors;
                      return fmt::format("{} / {} = {:.2f}", three(e.edge), three(e.rest), e.edge / e.rest);
                  }) +
-           "Within two pixels of a depth step of a tenth, and all other pixels; each RMSE over the mean of the "
-           "whole "
-           "picture.\n\n" +
+           "Within two pixels of where depth jumps by a tenth, and all other pixels; each over its own mean.\n\n" +
            table("Time of volumetrics (ms, least of all frames)",
                  [](const Row& r) { return three(r.volumetrics.least); });
 }

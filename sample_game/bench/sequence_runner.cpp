@@ -61,6 +61,7 @@ class SequenceRunner {
 
     void begin(const std::vector<std::string>& settings, glm::ivec2 size) {
         session_->settings.reset_to_defaults();
+        for (const std::string& assignment : few_froxels()) session_->settings.set(assignment);
         for (const std::string& assignment : settings) session_->settings.set(assignment);
         session_->size = size;
         session_->options.frame_index = 0;

@@ -137,7 +137,8 @@ bool on_plot(const SequenceSuite& suite, const Sequence& s) {
     if (suite.name == "noise") return s.group == "own" || s.group == "golden_ratio";
     if (suite.name == "filters") return s.group.find(", depth ") == std::string::npos;
     if (suite.name == "temporal")
-        return s.name.find("clip") == std::string::npos && (s.name == "off" || s.name.ends_with(", reject"));
+        return s.name == "off" || s.name == "blend" ||
+               (s.name.ends_with("reject") && s.name != "ema, clip, reject");
     return true;
 }
 

@@ -48,7 +48,7 @@ std::vector<Sequence> noise_sequences(const Place& place, glm::ivec2 size) {
 
 /// The noise `fast` was made for some filters; for the others the nearest of those is taken.
 std::string fast_space_of(const std::string& filter) {
-    return filter == "none" || filter == "gaussian15" ? "gaussian1" : filter == "uniform9" ? "box5" : filter;
+    return filter == "none" || filter == "gaussian15" ? "gaussian1" : filter;
 }
 
 /// Every spatial filter with every noise over 12 frames; then the filters' ways with depth.
@@ -63,8 +63,8 @@ std::vector<Sequence> filter_sequences(const Place& place, glm::ivec2 size) {
         list.push_back(
             sequence(place, size, group, noise, joined(joined(march(8), settings), thesis_mean), at_rest(12)));
     };
-    const std::vector<std::string> filters{"none",      "box3",      "box5",       "gaussian1",
-                                           "binomial3", "binomial5", "gaussian15", "uniform9"};
+    const std::vector<std::string> filters{"none",      "box3",      "box5",      "gaussian1",
+                                           "binomial3", "binomial5", "gaussian15"};
     for (const std::string& filter : filters)
         for (const std::string& noise : noises) add(filter, filter, "relative", noise);
     for (const char* depth : {"none", "plane"})
@@ -85,7 +85,6 @@ std::vector<Pose> there_and_stay() {
 std::vector<Sequence> temporal_sequences(const Place& place, glm::ivec2 size) {
     std::vector<Sequence> list;
     const std::vector<std::pair<std::string, Settings>> bases{
-        {"white tile 4×4", {"noise=white_tile", "noise_size=4", "noise_time=own", "filter=none"}},
         {"white tile 4×4, uniform9",
          {"noise=white_tile", "noise_size=4", "noise_time=own", "filter=uniform9", "filter_depth=plane"}},
         {"Bayer, golden ratio", {"noise=bayer", "noise_time=golden_ratio", "filter=none"}},
@@ -97,14 +96,16 @@ std::vector<Sequence> temporal_sequences(const Place& place, glm::ivec2 size) {
                 sequence(place, size, base, name, joined(joined(march(10), settings), more), there_and_stay()));
         };
         add("off", {"temporal=off"});
-        for (const char* mode : {"blend", "ema", "acceptance", "accumulate"})
+        const auto history = [&](const std::string& mode, bool clip, bool reject) {
+            const std::string weight = mode == "acceptance" ? "0.2" : "0.1";  // the paper's, the thesis'
+            add(mode + (clip ? ", clip" : "") + (reject ? ", reject" : ""),
+                {"temporal=" + mode, "temporal_weight=" + weight, fmt::format("temporal_clip={}", clip),
+                 fmt::format("temporal_reject={}", reject)});
+        };
+        history("blend", false, false);
+        for (const char* mode : {"ema", "acceptance", "accumulate"})
             for (const bool clip : {false, true})
-                for (const bool reject : {false, true}) {
-                    const std::string weight = std::string(mode) == "acceptance" ? "0.2" : "0.1";
-                    add(fmt::format("{}{}{}", mode, clip ? ", clip" : "", reject ? ", reject" : ""),
-                        {fmt::format("temporal={}", mode), "temporal_weight=" + weight,
-                         fmt::format("temporal_clip={}", clip), fmt::format("temporal_reject={}", reject)});
-                }
+                for (const bool reject : {false, true}) history(mode, clip, reject);
     }
     return list;
 }

@@ -25,7 +25,7 @@ struct Errors {
     double dim = 0;            ///< as `scattering`, without the 2% of pixels that are brightest in the ground truth
     double masked = 0;         ///< share of pixels left out of these: another surface is seen there
     double invalid = 0;        ///< values that are not finite, negative, or a transmittance above 1
-    double edge = 0;           ///< RMSE within two pixels of a depth edge, over the mean of the whole picture
+    double edge = 0;           ///< relative RMSE within two pixels of a depth edge (image_edges.h)
     double rest = 0;           ///< and of the other pixels
 };
 

@@ -8,7 +8,6 @@
 #include <sstream>
 
 #include "engine/core/files.h"
-#include "sample_game/bench/errors.h"
 #include "sample_game/bench/sequences.h"
 #include "sample_game/bench/svg_frames.h"
 #include "support/command.h"
@@ -107,22 +106,6 @@ TEST(BenchSequences, APoseMovesCameraAndLightsByAsMuchAsItSays) {
     (void)bench::pose(scene, place, size, {0, 4});
     const glm::mat4 there = scene.nodes[std::size_t(scene.lights.front().node)].world;
     EXPECT_NEAR(glm::distance(glm::vec3(lamp[3]), glm::vec3(there[3])), 0.2, 1e-5);
-}
-
-TEST(BenchSequences, DepthEdgesAreTwoPixelsWideOnEachSide) {
-    Image depth({12, 3}, 3);
-    for (int y = 0; y < 3; ++y)
-        for (int x = 0; x < 12; ++x) std::fill_n(depth.at(x, y), 3, x < 6 ? 10.0f + 0.2f * float(x) : 20.0f);
-    const std::vector<bool> near = bench::near_depth_edge(depth);
-    for (int x = 0; x < 12; ++x) EXPECT_EQ(near[std::size_t(12 + x)], x >= 3 && x <= 8) << x;
-    Image picture({12, 3}, 3), truth({12, 3}, 3);
-    std::ranges::fill(truth.pixels, 2.0f);
-    std::ranges::fill(picture.pixels, 2.0f);
-    *picture.at(5, 1) += 3;  // one of 54 values of the edge
-    EXPECT_NEAR(bench::part_relative_rmse(picture, truth, near), std::sqrt(9.0 / 54) / 2, 1e-6);
-    std::vector<bool> rest = near;
-    rest.flip();
-    EXPECT_EQ(bench::part_relative_rmse(picture, truth, rest), 0);
 }
 
 TEST(BenchSequences, APlotOfFramesShadesWhatMoves) {
