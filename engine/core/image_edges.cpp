@@ -7,7 +7,6 @@
 #include <glm/common.hpp>
 
 #include "engine/core/error.h"
-#include "engine/core/image_metrics.h"
 
 namespace tyndall {
 namespace {
@@ -56,17 +55,20 @@ MaskedError masked_relative_rmse(const Image& a, const Image& reference, const I
     if (a.size != reference.size || a.size != mask.size || a.pixels.empty())
         throw Error(fmt::format("cannot compare {} x {} with {} x {} at the edges of {} x {}: equal sizes expected",
                                 a.size.x, a.size.y, reference.size.x, reference.size.y, mask.size.x, mask.size.y));
-    double squares[2] = {}, counts[2] = {};
+    double squares[2] = {}, sums[2] = {}, counts[2] = {};
     for (int y = 0; y < a.size.y; ++y)
         for (int x = 0; x < a.size.x; ++x) {
             const int part = *mask.at(x, y) > 0 ? 0 : 1;
             counts[part] += 1;
-            for (int c = 0; c < channels; ++c)
-                squares[part] += std::pow(double(a.at(x, y)[c]) - reference.at(x, y)[c], 2);
+            for (int c = 0; c < channels; ++c) {
+                const double expected = reference.at(x, y)[c];
+                squares[part] += std::pow(a.at(x, y)[c] - expected, 2);
+                sums[part] += expected;
+            }
         }
-    const double mean = mean_value(reference);
     const auto error = [&](int part) {
-        return squares[part] > 0 ? std::sqrt(squares[part] / (counts[part] * channels)) / mean : 0.0;
+        const double values = counts[part] * channels;
+        return squares[part] > 0 ? std::sqrt(squares[part] / values) / (sums[part] / values) : 0.0;
     };
     return {error(0), error(1), counts[0] / (counts[0] + counts[1])};
 }

@@ -9,8 +9,8 @@ namespace tyndall {
 /// depth, so that floors seen at a grazing angle and creases have none.
 [[nodiscard]] Image edge_band(const Image& depth, int radius);
 
-/// Root mean square of a - reference inside of a mask (> 0) and outside, over the mean of the whole reference;
-/// first three channels. Throws Error when sizes differ. A part without pixels has the error 0.
+/// relative_rmse() of the pixels inside of a mask (> 0) and of those outside, each over the mean of the reference
+/// there. Throws Error when sizes differ. A part without pixels or without difference has the error 0.
 struct MaskedError {
     double inside, outside;
     double share;  ///< of the pixels that lie inside

@@ -45,6 +45,25 @@ TEST_F(CompareCommand, EveryMetricByDefault) {
     EXPECT_GT(d.at("flip").get<double>(), 0.05);
 }
 
+TEST_F(CompareCommand, ErrorBesideDepthEdgesAndElsewhere) {
+    // A step in the middle of 20 columns: 6 of them are its band. Off by 1 of 2 there, by nothing elsewhere.
+    write("b.exr", 2);
+    Image a({20, 10}, 3), depth({20, 10}, 1);
+    for (int y = 0; y < 10; ++y)
+        for (int x = 0; x < 20; ++x) {
+            std::fill_n(a.at(x, y), 3, x >= 7 && x < 13 ? 3.0f : 2.0f);
+            *depth.at(x, y) = x < 10 ? 5.0f : 20.0f;
+        }
+    write_image(folder_ / "a.exr", a);
+    write_image(folder_ / "depth.exr", depth);
+    const json d = compare("a.exr", "b.exr", {"--metric", "relrmse", "--edges", path("depth.exr")});
+    EXPECT_NEAR(d.at("edges").get<double>(), 0.5, 1e-6);
+    EXPECT_EQ(d.at("elsewhere"), 0);
+    EXPECT_NEAR(d.at("edge_share").get<double>(), 0.3, 1e-6);
+    write("depth.exr", 5, {3, 3});
+    EXPECT_EQ(run_tyndall({"compare", path("a.exr"), path("b.exr"), "--edges", path("depth.exr")}).exit_code, 1);
+}
+
 TEST_F(CompareCommand, FlipReadsDisplayValuesOfPngAndRadianceOfExr) {
     // Black against white by the paper's formulas (tests/unit/core/flip_test.cpp).
     write("black.png", 0);

@@ -120,6 +120,20 @@ TEST_F(Passes, NoFilterNoFilterPasses) {
                 UnorderedElementsAreArray({"volumetrics/march", "volumetrics/composite"}));
 }
 
+TEST_F(Passes, LowResolutionTakesTwoPassesAndAFourthOfTheMarch) {
+    const SceneSpec spec{.sun = true, .media = global_medium};
+    const Frame full = draw(spec, {"--set", "filter=none"});
+    const Frame half = draw(spec, {"--set", "filter=none", "--set", "resolution=half"});
+    EXPECT_THAT(with_prefix(half, "volumetrics/"),
+                UnorderedElementsAreArray({"volumetrics/depth_downsample", "volumetrics/march", "volumetrics/upsample",
+                                           "volumetrics/composite"}));
+    const auto samples = [](const Frame& frame) {
+        return frame.stats["work"]["volumetrics/march"]["medium_samples"].get<double>();
+    };
+    // Beyond the end of the march there is a sample more.
+    EXPECT_NEAR(samples(half), samples(full) / 4, 0.02 * samples(full));
+}
+
 TEST_F(Passes, NoLightStillAbsorbs) {
     const Frame frame = draw({.media = global_medium});
     EXPECT_TRUE(runs(frame, "volumetrics/march"));

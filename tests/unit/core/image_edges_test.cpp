@@ -35,17 +35,17 @@ TEST(EdgeBand, OfAPoleOfOnePixelIsAroundIt) {
     for (int x = 0; x < 20; ++x) EXPECT_EQ(*band.at(x, 0), x >= 8 && x <= 12 ? 1 : 0) << x;
 }
 
-TEST(MaskedError, IsThatOfEachPartOverTheMeanOfAll) {
+TEST(MaskedError, IsThatOfEachPartOverItsMean) {
     Image reference({4, 1}, 3), a({4, 1}, 3), mask({4, 1}, 1);
     for (int x = 0; x < 4; ++x)
         for (int c = 0; c < 3; ++c) {
-            reference.at(x, 0)[c] = 2;
-            a.at(x, 0)[c] = x == 0 ? 5.0f : 3.0f;
+            reference.at(x, 0)[c] = x == 0 ? 2.0f : 8.0f;
+            a.at(x, 0)[c] = x == 0 ? 5.0f : 10.0f;
         }
     *mask.at(0, 0) = 1;
     const MaskedError error = masked_relative_rmse(a, reference, mask);
     EXPECT_DOUBLE_EQ(error.inside, 1.5);
-    EXPECT_DOUBLE_EQ(error.outside, 0.5);
+    EXPECT_DOUBLE_EQ(error.outside, 0.25);
     EXPECT_DOUBLE_EQ(error.share, 0.25);
     EXPECT_DOUBLE_EQ(masked_relative_rmse(a, reference, Image({4, 1}, 1)).inside, 0);
     EXPECT_THROW((void)masked_relative_rmse(a, reference, Image({3, 1}, 1)), Error);
