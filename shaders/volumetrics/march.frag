@@ -3,6 +3,15 @@
 //     L += T(0,a) int_a^b T(a,t) (sigma_s sum_i p V_i T_i E_i + e) dt,    T(0,b) = T(0,a) exp(-optical depth of [a,b])
 // Global media, transmittances and the inverse square of lamps are integrated in closed form; only local media and
 // visibility are sampled, once a segment, at an offset that differs from pixel to pixel.
+//
+// VISIBILITY: the unshadowed light of sun and lamps, without noise, and the visible share of it are stored apart
+// (relight.frag), so that only the latter is filtered. Local media are then sampled slice by slice of the froxels.
+#ifndef VISIBILITY
+#define VISIBILITY 0
+#endif
+#define SUN_APART (VISIBILITY == 1 && HAS_SUN == 1)
+#define LAMPS_APART (VISIBILITY == 1 && LAMPS == 2)
+
 #include "shaders/volumetrics/froxel_depths.glsl"
 #include "shaders/volumetrics/noise_offset.glsl"
 #include "shaders/volumetrics/segment_light.glsl"
@@ -21,6 +30,17 @@ layout(location = 0) flat in vec3 ambient;
 layout(location = 0) out vec4 out_scattering;
 #if CHROMATIC
 layout(location = 1) out vec4 out_transmittance;
+#endif
+#if SUN_APART
+layout(location = 1 + CHROMATIC) out vec4 out_sun;
+layout(location = 2 + CHROMATIC) out vec4 out_sun_share;
+#define LAMPS_LOCATION (3 + CHROMATIC)
+#else
+#define LAMPS_LOCATION (1 + CHROMATIC)
+#endif
+#if LAMPS_APART
+layout(location = LAMPS_LOCATION) out vec4 out_lamps;
+layout(location = LAMPS_LOCATION + 1) out vec4 out_lamps_share;
 #endif
 
 // Half of the smallest half-float number: a transmittance of this is stored as 0, and nothing behind it shows.
@@ -46,6 +66,118 @@ vec3 add_local_media(Ray ray, float t, float path_length, inout Medium m, inout 
     return sigma_t;
 }
 
+#if VISIBILITY
+struct Parted {
+    vec3 visible;
+    vec3 whole;  // unshadowed
+};
+Parted sun_light = Parted(vec3(0.0), vec3(0.0));
+Parted lamp_light = Parted(vec3(0.0), vec3(0.0));
+
+// Visible share of each channel, that of the mean in a channel without light; and its weight, 0 where there is no light.
+vec4 visible_share(Parted light) {
+    const float LEAST = 1.0e-7;
+    vec3 whole = min(light.whole, 1.0e30);
+    vec3 visible = min(light.visible, whole);
+    float mean = mean_channel(whole);
+    if (!(mean > LEAST)) return vec4(0.0);
+    vec3 share = mix(visible / max(whole, LEAST), vec3(mean_channel(visible) / mean), lessThan(whole, vec3(LEAST)));
+    return round_to_half(vec4(clamp(share, 0.0, 1.0), 1.0));
+}
+
+void add_lamps(Ray ray, Segment segment, vec3 transmittance) {
+#if LAMPS == 2
+    vec3 unshadowed;
+    lamp_light.visible += transmittance * lamps_over_segment(ray, segment, unshadowed);
+    lamp_light.whole += transmittance * unshadowed;
+#endif
+}
+#endif
+
+#if VISIBILITY && LOCAL_MEDIA
+const int MAX_PARTS = 64;
+
+// The slices of the froxels that a segment passes, from place to place in their volume.
+struct Parts {
+    float w_begin;
+    float w_end;
+    int in_froxels;
+    int count;  // the last one may lie behind the froxels
+    float begin;
+    float end;
+};
+
+Parts parts_of(Ray ray, float a, float b) {
+    float w_begin = froxel_w(a * ray.forward_cosine);
+    float w_end = min(froxel_w(b * ray.forward_cosine), 1.0);
+    float slices = max(w_end - w_begin, 0.0) * float(textureSize(froxel_scattering, 0).z);
+    int in_froxels = min(int(ceil(slices)), MAX_PARTS - 1);
+    bool leaves = b * ray.forward_cosine > froxel_far();
+    return Parts(w_begin, w_end, in_froxels, max(in_froxels + int(leaves), 1), a, b);
+}
+
+// Where part i ends, from 1 on; 0: where the first one begins.
+float part_end(Ray ray, Parts parts, int i) {
+    if (i == 0) return parts.begin;
+    if (i == parts.count) return parts.end;
+    float w = mix(parts.w_begin, parts.w_end, float(i) / float(parts.in_froxels));
+    return clamp(froxel_view_depth(w) / ray.forward_cosine, parts.begin, parts.end);
+}
+
+// Unshadowed light without noise: a segment in parts as long as the froxel slices, of each its own medium and sun. Lamps see
+// the mean medium of the segment.
+void march_segment(Ray ray, float a, float b, float offset, inout Extinction sun_front, inout March march) {
+    Parts parts = parts_of(ray, a, b);
+    Segment segment = Segment(a, b, offset, 0.0, vec3(0.0), vec3(0.0));
+    float scattering = 0.0;
+    float anisotropy = 0.0;
+    Extinction transmittance = march.transmittance;
+    vec3 sun = vec3(0.0);
+    float gathered[MAX_PARTS];  // sunlight up to the end of each part
+    float begin = a;
+    for (int i = 1; i <= parts.count; ++i) {
+        float end = part_end(ray, parts, i);
+        float path_length = end - begin;
+        float middle = 0.5 * (begin + end);
+        Medium m = global_medium(ray.origin.y + ray.direction.y * begin, ray.direction.y, path_length);
+        count_work(WORK_MEDIUM_SAMPLES, 1u);
+        vec3 sigma_s = volumetrics.homogeneous_sigma_s.rgb;
+        vec3 sigma_t = volumetrics.homogeneous_sigma_t.rgb;
+        sigma_t += add_local_media(ray, middle, path_length, m, sigma_s);
+        Optics optics = medium_optics(m, path_length);
+        march.radiance += transmittance * ((m.sigma_s * ambient + m.emission) * optics.effective_length);
+#if HAS_SUN
+        SunSegment part = sun_segment(ray, begin, end, optics, sun_front);
+        sun += transmittance * sun_scattering(ray, m, part.effective_length) *
+               exp(-local_sun_optical_depth(ray.origin + ray.direction * middle));
+        gathered[i - 1] = mean_channel(min(sun, 1.0e30));
+#endif
+        float share = path_length / max(b - a, 1.0e-30);
+        segment.sigma_s += share * sigma_s;
+        segment.sigma_t += share * sigma_t;
+        float particles = share * mean_channel(particle_sigma_s(m));
+        scattering += particles;
+        anisotropy += particles * m.anisotropy;
+        transmittance *= optics.transmittance;
+        begin = end;
+    }
+    segment.anisotropy = anisotropy / max(scattering, 1.0e-30);
+#if HAS_SUN
+    // Visibility where the share `offset` of the sunlight has been gathered.
+    int found = 0;
+    float target = offset * gathered[parts.count - 1];
+    while (found + 1 < parts.count && gathered[found] < target) ++found;
+    float before = found == 0 ? 0.0 : gathered[found - 1];
+    float place = clamp((target - before) / max(gathered[found] - before, 1.0e-30), 0.0, 1.0);
+    float t = mix(part_end(ray, parts, found), part_end(ray, parts, found + 1), place);
+    count_work(WORK_SHADOW_LOOKUPS, 1u);
+    sun_light.visible += sun_visibility(visibility_point(ray, t), t * ray.forward_cosine) * sun;
+    sun_light.whole += sun;
+#endif
+    add_lamps(ray, segment, vec3(march.transmittance));
+    march.transmittance = transmittance;
+}
+#else
 void march_segment(Ray ray, float a, float b, float offset, inout Extinction sun_front, inout March march) {
     float path_length = b - a;
     Medium m = global_medium(ray.origin.y + ray.direction.y * a, ray.direction.y, path_length);
@@ -56,9 +188,19 @@ void march_segment(Ray ray, float a, float b, float offset, inout Extinction sun
 
     Optics optics = medium_optics(m, path_length);
     Segment segment = Segment(a, b, offset, m.anisotropy, constant_sigma_s, constant_sigma_t);
+#if VISIBILITY
+    SegmentLight light = segment_light_parts(ray, segment, m, optics, ambient, sun_front);
+    march.radiance += march.transmittance * light.diffuse;
+    sun_light.visible += march.transmittance * light.sun_visibility * light.sun;
+    sun_light.whole += march.transmittance * light.sun;
+    lamp_light.visible += march.transmittance * light.lamps;
+    lamp_light.whole += march.transmittance * light.unshadowed_lamps;
+#else
     march.radiance += march.transmittance * segment_light(ray, segment, m, optics, ambient, sun_front);
+#endif
     march.transmittance *= optics.transmittance;
 }
+#endif
 
 void main() {
     vec2 uv = screen_place(gl_FragCoord.xy);
@@ -90,6 +232,14 @@ void main() {
     out_scattering = round_to_half(vec4(march.radiance, average(march.transmittance)));
 #if CHROMATIC
     out_transmittance = round_to_half(vec4(march.transmittance, average(march.transmittance)));
+#endif
+#if SUN_APART
+    out_sun = round_to_half(vec4(sun_light.whole, 0.0));
+    out_sun_share = visible_share(sun_light);
+#endif
+#if LAMPS_APART
+    out_lamps = round_to_half(vec4(lamp_light.whole, 0.0));
+    out_lamps_share = visible_share(lamp_light);
 #endif
     flush_work();
 }

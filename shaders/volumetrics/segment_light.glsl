@@ -4,6 +4,12 @@
 
 #include "shaders/interface/shadows.glsl"
 #include "shaders/volumetrics/lamps.glsl"
+
+// 1: unshadowed light is wanted without noise (march.frag).
+#ifndef VISIBILITY
+#define VISIBILITY 0
+#endif
+
 #include "shaders/volumetrics/segment.glsl"
 
 struct SegmentLight {
@@ -20,7 +26,7 @@ struct SegmentLight {
 vec3 local_sun_transmittance(Ray ray, Segment segment, float x) {
 #if SUN_VOLUME
     float path_length = segment.end - segment.begin;
-    float offset = FROXEL_HISTORY == 0 ? segment.offset : 0.5;
+    float offset = FROXEL_HISTORY == 0 && VISIBILITY == 0 ? segment.offset : 0.5;
     vec3 sum = vec3(0.0);
     for (int i = 0; i < 2; ++i) {
         float t = segment.begin + path_length * equal_transmittance(0.5 * (offset + float(i)), x);

@@ -18,6 +18,7 @@ struct FroxelMedia {
 
 class FroxelHistory;
 class TemporalHistory;
+struct MarchedLight;
 
 /// What all passes of one frame share.
 struct PassResources {
@@ -30,7 +31,7 @@ struct PassResources {
 
 [[nodiscard]] FroxelMedia add_inject_media(PassList& passes, const PassResources& resources, const Inputs& inputs,
                                            const Settings& settings, const FrameMedia& media);
-[[nodiscard]] Outputs add_march(PassList& passes, const PassResources& resources, const Inputs& inputs,
+[[nodiscard]] MarchedLight add_march(PassList& passes, const PassResources& resources, const Inputs& inputs,
                                 const Settings& settings, const FrameMedia& media, const FroxelMedia& froxels);
 /// Light and transmittance of froxels: the steps of the technique froxel before the last.
 [[nodiscard]] Fog add_froxel_fog(PassList& passes, const PassResources& resources, const Inputs& inputs,

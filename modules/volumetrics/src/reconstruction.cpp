@@ -1,5 +1,6 @@
 #include "reconstruction.h"
 
+#include "relight.h"
 #include "temporal.h"
 
 namespace tyndall::volumetrics {
@@ -19,21 +20,29 @@ int resolution_factor(const Settings& settings) {
 
 Outputs add_reconstruction(PassList& passes, const PassResources& resources, const Inputs& inputs, const Inputs& low,
                            const Settings& settings, const Outputs& sampled, TemporalHistory& history) {
-    Outputs result = sampled;
+    return add_reconstruction(passes, resources, inputs, low, settings, MarchedLight{.rest = sampled}, history);
+}
+
+Outputs add_reconstruction(PassList& passes, const PassResources& resources, const Inputs& inputs, const Inputs& low,
+                           const Settings& settings, const MarchedLight& marched, TemporalHistory& history) {
+    Outputs result = noisy_part(marched);
     const bool temporal = settings.temporal != Temporal::off;
     const bool before = temporal && settings.temporal_place == TemporalPlace::before;
     if (!temporal) passes.skip("volumetrics/temporal", "temporal is off");
     if (before) result = add_temporal(passes, resources, low, settings, result, history);
+    const TextureRef acceptance = result.acceptance;
     if (settings.filter != Filter::none)
         result = add_filter(passes, resources, low, settings, result);
     else
         for (const char* name : {"volumetrics/filter_horizontal", "volumetrics/filter_vertical"})
             passes.skip(name, "filter is none");
+    if (marched.sun || marched.lamps) result = add_relight(passes, resources, marched, result, low.count_work);
     if (settings.resolution != Resolution::full)
         result = add_upsample(passes, resources, inputs, low, settings, result);
     else
         passes.skip("volumetrics/upsample", "resolution is full");
-    if (temporal && !before) result = add_temporal(passes, resources, inputs, settings, result, history);
+    if (temporal && !before) return add_temporal(passes, resources, inputs, settings, result, history);
+    result.acceptance = acceptance;
     return result;
 }
 

@@ -5,6 +5,7 @@
 namespace tyndall::volumetrics {
 
 class TemporalHistory;
+struct MarchedLight;
 
 /// What techniques that sample draw to: `inputs` with the size and the depth of the chosen resolution. At full
 /// resolution these are the host's.
@@ -16,11 +17,16 @@ class TemporalHistory;
 [[nodiscard]] int resolution_factor(const Settings& settings);
 
 /// Between samples and picture, each where settings ask for it:
-///     temporal (before) -> spatial filter -> up-sampling -> temporal (after)
+///     temporal (before) -> spatial filter -> relight -> up-sampling -> temporal (after)
 /// `sampled` is of the size of `low` (add_depth_downsample); the result is of the host's. Every texture of `sampled`
 /// goes the same way.
 [[nodiscard]] Outputs add_reconstruction(PassList& passes, const PassResources& resources, const Inputs& inputs,
                                          const Inputs& low, const Settings& settings, const Outputs& sampled,
+                                         TemporalHistory& history);
+
+/// The same, of which the steps before relight take noisy_part() alone.
+[[nodiscard]] Outputs add_reconstruction(PassList& passes, const PassResources& resources, const Inputs& inputs,
+                                         const Inputs& low, const Settings& settings, const MarchedLight& marched,
                                          TemporalHistory& history);
 
 /// The spatial filter, two passes at the resolution of `source`; settings.filter is not none.

@@ -114,6 +114,11 @@ const SettingsTable& settings_table() {
                    "How fast the weight falls with relative depth difference: it is 0 from a difference of 1 / falloff "
                    "on. Of the filter and of bilateral up-sampling."},
                   0, 100)
+            .choice(&S::reconstruct,
+                    {"reconstruct", "Reconstruct",
+                     "What the filter, and a mean over frames before it, take from ray_march: the light; or the visible "
+                     "share of it, times the unshadowed light of each pixel, which has no noise."},
+                    {"light", "visibility"}, Effect::permutation)
             .choice(&S::resolution,
                     {"resolution", "Resolution",
                      "Pixels along each side that ray_march, radial_shafts and the application of froxels are computed "
@@ -143,8 +148,9 @@ const SettingsTable& settings_table() {
                   {"temporal_weight", "Temporal weight", "Least weight of the new frame, but for accumulate."}, 0.01, 1)
             .real(&S::temporal_scale,
                   {"temporal_scale", "Temporal scale",
-                   "Of acceptance and accumulate: what is kept falls by exp(-distance * scale) between this surface and "
-                   "the one seen there before; the distance is relative to view depth.",
+                   "Of acceptance and accumulate: what is kept falls by exp(-distance * scale), of this surface to the "
+                   "one seen there before; the distance is relative to that of the nearer one from the camera. 0 keeps "
+                   "all.",
                    ""},
                   0, 1000)
             .integer(&S::temporal_frames,
@@ -152,12 +158,14 @@ const SettingsTable& settings_table() {
                      Effect::uniform, Scale::logarithmic)
             .boolean(&S::temporal_clip,
                      {"temporal_clip", "Temporal clip",
-                      "Clips what is kept to the colours around the pixel in the new frame: changes show at once, and "
-                      "noise stays."},
+                      "Clips what is kept to the range of values around the pixel in the new frame, and of the noise that "
+                      "temporal_reject has learnt. Light that few samples find gets darker. Not of blend."},
                      Effect::uniform)
             .boolean(&S::temporal_reject,
                      {"temporal_reject", "Temporal rejection",
-                      "Forgets what is kept where lights or media changed."},
+                      "Forgets what is kept where the new frame differs from it by more than noise: lights, shadows or media "
+                      "changed. Changes of sun, camera, global media and lamps that the host tells count always. Not of "
+                      "blend."},
                      Effect::uniform)
             .integer(&S::froxels_x,
                      {"froxels_x", "Froxels across",

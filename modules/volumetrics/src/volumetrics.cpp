@@ -12,6 +12,7 @@
 #include "froxel_tiles.h"
 #include "passes.h"
 #include "reconstruction.h"
+#include "relight.h"
 #include "shaders/shared/bindings.h"
 #include "temporal.h"
 
@@ -23,8 +24,8 @@ const std::map<Technique, std::vector<const char*>>& passes_of() {
     static const std::map<Technique, std::vector<const char*>> names{
         {Technique::ray_march,
          {"volumetrics/inject_media", "volumetrics/depth_downsample", "volumetrics/march",
-          "volumetrics/filter_horizontal", "volumetrics/filter_vertical", "volumetrics/upsample",
-          "volumetrics/temporal"}},
+          "volumetrics/filter_horizontal", "volumetrics/filter_vertical", "volumetrics/relight",
+          "volumetrics/upsample", "volumetrics/temporal"}},
         {Technique::froxel,
          {"volumetrics/inject_media", "volumetrics/froxel_history", "volumetrics/depth_downsample",
           "volumetrics/filter_horizontal", "volumetrics/filter_vertical", "volumetrics/upsample",
@@ -109,8 +110,8 @@ struct Volumetrics::Impl {
     Outputs add_ray_march(PassList& passes, const Inputs& inputs, const Settings& settings) {
         const FroxelMedia froxels = add_local_media(passes, inputs, settings);
         const Inputs low = add_depth_downsample(passes, resources, inputs, settings);
-        const Outputs sampled = add_march(passes, resources, low, settings, media, froxels);
-        return add_reconstruction(passes, resources, inputs, low, settings, sampled, temporal_history);
+        const MarchedLight marched = add_march(passes, resources, low, settings, media, froxels);
+        return add_reconstruction(passes, resources, inputs, low, settings, marched, temporal_history);
     }
 
     Outputs add_technique(PassList& passes, const Inputs& inputs, const Settings& settings) {

@@ -25,6 +25,7 @@ enum class SpatialKernel { gaussian1, box3, box5, binomial3, binomial5 };
 enum class TemporalKernel { ema, box8 };
 enum class Filter { none, box3, box5, gaussian1, binomial3, binomial5, gaussian15, uniform9 };
 enum class FilterDepth { none, relative, plane };
+enum class Reconstruct { light, visibility };
 enum class Resolution { full, half, quarter };
 enum class DepthChoice { min, max, checkerboard };
 enum class Upsample { nearest, bilinear, bilateral, nearest_depth };
@@ -56,6 +57,7 @@ struct Settings {
     float filter_sigma = 2.0f;
     FilterDepth filter_depth = FilterDepth::relative;
     float filter_depth_falloff = 3.0f;
+    Reconstruct reconstruct = Reconstruct::light;
     Resolution resolution = Resolution::full;
     DepthChoice resolution_depth = DepthChoice::checkerboard;
     Upsample upsample = Upsample::bilateral;
