@@ -192,7 +192,7 @@ vec4 clipped(vec4 kept, sampler2D values, vec4 now, ivec2 pixel, ivec2 size, flo
 // - a mean of the last d, a geometric one over 4 frames, of more than as many of its own standard deviations (0.38 sigma,
 //   and what the history's noise adds): a shadow that wanders;
 // - a transmittance that differs by 10 to 30%.
-// sigma is at least 2% of the light. It is learnt over 8 frames, by at most twice itself a frame, lest it learns a change by
+// sigma is at least 2% of the light, and what the new frame's pixels differ by: one bright one is noise. It is learnt over 8 frames, by at most twice itself a frame, lest it learns a change by
 // heart; with the change it is 20% of the light at least, for the noise of the new light is not known.
 // agreement: 1 no change, 0 a change.
 struct Change {
@@ -201,30 +201,39 @@ struct Change {
 
 float luminance(vec4 v) { return dot(v.rgb, vec3(1.0 / 3.0)); }
 
-// Of 5x5 pixels, with the weights (1, 1, 2, 1, 1) / 6 in x and in y.
-vec4 mean_around(sampler2D values, vec2 place, vec2 size) {
-    count_work(WORK_TEXTURE_FETCHES, 9u);
+// Of 5x5 pixels, with the weights (1, 1, 2, 1, 1) / 6 in x and in y; and the variance of its luminance, by that between the
+// nine fetches.
+vec4 mean_around(sampler2D values, vec2 place, vec2 size, out float variance) {
+    count_work(WORK_TEXTURE_FETCHES, 10u);
+    vec4 first = textureLod(values, place / size, 0.0);
     vec4 sum = vec4(0.0);
-    for (int i = 0; i < 9; ++i)
-        sum += textureLod(values, (place + 1.5 * (vec2(i % 3, i / 3) - 1.0)) / size, 0.0);
-    return sum / 9.0;
+    float squares = 0.0;
+    for (int i = 0; i < 9; ++i) {
+        vec4 v = textureLod(values, (place + 1.5 * (vec2(i % 3, i / 3) - 1.0)) / size, 0.0) - first;
+        sum += v;
+        squares += luminance(v) * luminance(v);
+    }
+    sum /= 9.0;
+    variance = max(squares / 9.0 - luminance(sum) * luminance(sum), 0.0) / 8.0;
+    return first + sum;
 }
 
 Change no_history(float light) { return Change(0.0, 0.2 * light, 0.0); }
 
 Change change_of(vec2 place, Kept kept, vec2 size) {
-    vec4 mean_now = mean_around(scattering_now, gl_FragCoord.xy, size);
+    float variance_now, variance_before;
+    vec4 mean_now = mean_around(scattering_now, gl_FragCoord.xy, size, variance_now);
     float now = luminance(mean_now);
     Change start = no_history(min(now, HALF_MAX));
     if (kept.acceptance <= 0.0) return start;
-    vec4 mean_before = mean_around(scattering_before, place, size);
+    vec4 mean_before = mean_around(scattering_before, place, size, variance_before);
     float before = luminance(mean_before);
     float d = now - before;
     float deviation = kept.statistics.y, drift = kept.statistics.z;
     if (!(abs(d) <= HALF_MAX && abs(deviation) <= HALF_MAX && abs(drift) <= HALF_MAX)) return start;
     float noise = 1.0 + 1.0 / max(kept.statistics.x, 1.0);  // variance of d over that of one frame
     float least = 0.02 * max(now, before) + 1.0e-7;
-    float variance = max(deviation * deviation, least * least);
+    float variance = max(max(deviation * deviation, variance_now), least * least);
     float off = max(abs(d), abs(drift) / 0.45) / sqrt(variance * noise);
     float t = abs(mean_now.a - mean_before.a) / max(max(mean_now.a, mean_before.a), 0.1);
     float agreement = (1.0 - smoothstep(2.2, 3.5, off)) * (1.0 - smoothstep(0.1, 0.3, t));
