@@ -47,8 +47,8 @@ Relit create_relit(PassList& passes, const std::string& name, const gl::TextureD
 
 }  // namespace
 
-MarchedLight add_march(PassList& passes, const PassResources& resources, const Inputs& inputs, const Settings& settings,
-                  const FrameMedia& media, const FroxelMedia& froxels) {
+MarchedLight add_march(PassList& passes, const PassResources& resources, const Inputs& inputs,
+                       const Settings& settings, const FrameMedia& media, const FroxelMedia& froxels) {
     const gl::TextureDesc desc{.format = GL_RGBA16F, .size = {inputs.size, 1}};
     MarchedLight marched;
     Outputs& outputs = marched.rest;
@@ -77,7 +77,8 @@ MarchedLight add_march(PassList& passes, const PassResources& resources, const I
             }
             outputs.scattering = builder.attach_color(outputs.scattering);
             if (outputs.transmittance) outputs.transmittance = builder.attach_color(outputs.transmittance);
-            for (TextureRef* ref : {&marched.sun.light, &marched.sun.share, &marched.lamps.light, &marched.lamps.share})
+            for (TextureRef* ref :
+                 {&marched.sun.light, &marched.sun.share, &marched.lamps.light, &marched.lamps.share})
                 if (*ref) *ref = builder.attach_color(*ref);
         },
         [froxels, depth = inputs.depth, bind_lighting = lit ? inputs.bind_lighting : nullptr, &shader,
