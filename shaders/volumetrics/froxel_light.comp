@@ -7,7 +7,7 @@
 //
 // FROXEL_HISTORY: sun and lamps are stored apart, unshadowed, with the visible share of them, which froxel_history.comp averages over the
 // frames. Visibility is then sampled all over the froxel, not on the column's ray alone.
-#include "shaders/lib/dither.glsl"
+#include "shaders/lib/sampling_noise.glsl"
 #include "shaders/lib/pack.glsl"
 #include "shaders/volumetrics/froxel_grid.glsl"
 #include "shaders/volumetrics/segment_light.glsl"

@@ -1,2 +1,0 @@
-// bayer_rank is there now.
-#include "shaders/lib/sampling_noise.glsl"
