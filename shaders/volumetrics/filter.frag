@@ -39,12 +39,12 @@ float surface_at(vec2 p) {
     return d > 0.0 && inside(p) > 0.0 ? d : -1.0e6;
 }
 
-// Takes the slope and the bend of three depths in line, if their two differences are alike (at most as 1 to 2) and more
-// so than those known.
+// Takes the slope and the bend of three depths in line, if their two differences are alike (within a fifth: a plane's
+// are the same, those of a stair of three surfaces may be near it) and more so than those known.
 void try_plane(float d0, float d1, float d2, inout float slope, inout float bend) {
     float first = d1 - d0, second = d2 - d1;
     float new_bend = abs(second - first);
-    if (3.0 * new_bend > abs(first + second) || new_bend >= bend) return;
+    if (10.0 * new_bend > abs(first + second) || new_bend >= bend) return;
     bend = new_bend;
     slope = 0.5 * (first + second);
 }
