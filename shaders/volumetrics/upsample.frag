@@ -44,14 +44,21 @@ float depth_at(ivec2 pixel) {
     return texelFetch(depth_texture, clamp(pixel, ivec2(0), textureSize(depth_texture, 0) - 1), 0).r;
 }
 
-// At the border a missing neighbour is the pixel itself, so that there is no slope across it.
+// Beyond the border the surface goes on, if it is not steep: then an edge is as likely.
+float slope_along(ivec2 pixel, ivec2 direction, float here) {
+    float before = depth_at(pixel - direction), after = depth_at(pixel + direction);
+    float gentle = 0.125 * here;
+    if (any(lessThan(pixel - direction, ivec2(0))) && abs(after - here) < gentle) before = 2.0 * here - after;
+    if (any(greaterThanEqual(pixel + direction, textureSize(depth_texture, 0))) && abs(here - before) < gentle)
+        after = 2.0 * here - before;
+    return depth_slope(before, here, after);
+}
+
 Surface surface_at(ivec2 pixel) {
     float depth = depth_at(pixel);
-    ivec2 x = ivec2(1, 0), y = ivec2(0, 1);
     count_work(WORK_TEXTURE_FETCHES, 5u);
     return Surface(vec2(pixel) + 0.5, depth,
-                   vec2(depth_slope(depth_at(pixel - x), depth, depth_at(pixel + x)),
-                        depth_slope(depth_at(pixel - y), depth, depth_at(pixel + y))));
+                   vec2(slope_along(pixel, ivec2(1, 0), depth), slope_along(pixel, ivec2(0, 1), depth)));
 }
 
 // What the surface's plane has in the block of a low pixel, as near as can be to the depth there.
