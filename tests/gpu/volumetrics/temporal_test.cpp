@@ -466,7 +466,7 @@ TEST_F(VolumetricsTemporal, NoiseIsNoChange) {
 
 // Ten steps, thin occluders, a light and a camera that move and come to rest.
 TEST_F(VolumetricsTemporal, FewSamplesSettleAndNeverGetWorse) {
-    host.size = {48, 27};
+    host.size = {40, 22};
     host.ambient = {};
     host.view_depth = [this](int x, int y) {  // a pillar before a wall
         const glm::vec3 ray = host.ray(x, y);
@@ -485,18 +485,18 @@ TEST_F(VolumetricsTemporal, FewSamplesSettleAndNeverGetWorse) {
         host.lights[0].cone_shadow.z = 0;
         host.eye = glm::vec3(0.03F, 0, -0.03F) * t;
     };
-    constexpr int frames = 12;
+    constexpr int frames = 8;
     double single = 0;
     for (int i = 0; i < frames; ++i) {
         place(i);
         const Image now = draw(s).scattering;
-        const Image expected = of_other(plain_settings(256));
+        const Image expected = of_other(plain_settings(128));
         const double error = relative_rmse(now, expected);
         const double error_single = relative_rmse(of_other(without(s)), expected);
         EXPECT_LE(error, 1.1 * error_single) << i;
         single += error_single / frames;
     }
-    const Image expected = of_other(plain_settings(256));
+    const Image expected = of_other(plain_settings(128));
     const double error = relative_rmse(after(5, s).scattering, expected);
     EXPECT_LE(error, 0.25 * single);
 }
