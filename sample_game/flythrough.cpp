@@ -134,6 +134,7 @@ void fly_through(Session& session, const FlythroughOptions& options) {
     session.timer->set_mode(gl::TimerMode::off);
     for (const Animation::Place& place : path.places) {
         animate(session.scene, place.time);
+        session.renderer->invalidate_history();  // the view jumps
         session.draw(path_view(session, path, place.time), place.time);
         write_image(options.out / (place.name + ".png"), session.renderer->read_display());
     }
