@@ -43,6 +43,8 @@ const std::vector<Variant>& variants() {
             {"Bayer, history", with(with(with(bayer, moving), unfiltered), history), settled, 16},
             {"FAST, history", with(with(with(fast, slices), unfiltered), history), settled, 16},
             {"Bayer, gaussian1, history", with(with(with(bayer, moving), narrow), history), settled, 16},
+            {"Bayer, gaussian15, visibility, history",
+             with(with(with(with(bayer, moving), wide), history), {"reconstruct=visibility"}), settled, 16},
             {"Bayer, gaussian1, history, half",
              with(with(with(with(bayer, moving), narrow), history), {"resolution=half"}), settled, 16},
         };

@@ -31,7 +31,7 @@ std::vector<FramesPlot::Span> spans_of(const std::vector<Pose>& poses) {
     for (std::size_t i = 1; i < poses.size(); ++i) {
         const bool camera = poses[i].camera != poses[i - 1].camera, light = poses[i].light != poses[i - 1].light;
         if (!camera && !light) continue;
-        const std::string name = camera && light ? "both move" : camera ? "camera moves" : "lights move";
+        const std::string name = camera && light ? "both" : camera ? "camera" : "lights";
         const int frame = static_cast<int>(i);
         if (!spans.empty() && spans.back().name == name && spans.back().last == frame - 1)
             spans.back().last = frame;
@@ -64,7 +64,7 @@ std::string sequence_csv(const SequenceSuite& suite, const Store& store) {
         };
         line("relative_rmse", &FrameErrors::error);
         line("relative_rmse_dim98", &FrameErrors::dim);
-        if (!suite.limit.empty()) line("relative_rmse_to_limit", &FrameErrors::to_limit);
+        line("relative_rmse_to_limit", &FrameErrors::to_limit);
     }
     return csv;
 }
@@ -84,12 +84,13 @@ std::map<std::string, std::string> sequence_plots(const SequenceSuite& suite, co
         if (suite.name == "filters") plot.columns = 4;
         if (plot.panels.empty() || plot.panels.back().title != s.group) plot.panels.push_back({s.group, {}});
         if (!colors.contains(s.name)) colors.emplace(s.name, legend_color(colors.size()));
-        plot.panels.back().curves.push_back({s.name, colors[s.name], values_of(frames, &FrameErrors::error)});
+        plot.panels.back().curves.push_back({s.name, colors[s.name], values_of(frames, suite.measure)});
         const std::vector<FrameErrors>& limit = store.at(limit_key(s)).frames;
         const bool last = &s == &suite.sequences.back() || (&s)[1].group != s.group;
         if (last && !limit.empty())
-            plot.panels.back().curves.push_back(
-                {"mean of 128 frames", "#1a1a1a", std::vector<double>(frames.size(), limit.front().error), true});
+            plot.panels.back().curves.push_back({"mean of 128 frames", "#1a1a1a",
+                                                 std::vector<double>(frames.size(), limit.front().*suite.measure),
+                                                 true});
     }
     std::map<std::string, std::string> pictures;
     for (const auto& [place, plot] : plots) pictures[place] = svg_frames(plot);
@@ -114,7 +115,7 @@ std::string sequence_summary(const SequenceSuite& suite, const Store& store,
             md += fmt::format(
                 "The mean of 128 frames without history or filter has an error of {}: what is left of so few steps "
                 "however many frames there are.\n\n",
-                three(limit.front().error));
+                three(limit.front().*suite.measure));
         md += sequence_tables(suite, store, place);
     }
     return md;

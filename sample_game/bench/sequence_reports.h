@@ -12,7 +12,7 @@ namespace tyndall::bench {
 [[nodiscard]] std::string limit_key(const Sequence& sequence);
 
 /// One line for each sequence and measure: what it is, then frame_0, frame_1 … Measures: relative_rmse,
-/// relative_rmse_dim98 and, where the suite has a limit, relative_rmse_to_limit.
+/// relative_rmse_dim98 and relative_rmse_to_limit (0 where something moved).
 [[nodiscard]] std::string sequence_csv(const SequenceSuite& suite, const Store& store);
 
 /// Pictures by file name without ending: one for each place.

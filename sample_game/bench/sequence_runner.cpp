@@ -78,7 +78,7 @@ class SequenceRunner {
             point.pose = p;
             truth_[p.name()] = truths_.get(*session_, pose(session_->scene, *s.place, s.size, p), point).scattering;
         }
-        if (suite_.limit.empty() || !limit_.pixels.empty()) return;
+        if (!limit_.pixels.empty()) return;
         std::vector<std::string> settings = suite_.limit;
         settings.insert(settings.end(),
                         {"noise=bayer", "noise_size=16", "noise_time=golden_ratio", "filter=none", "temporal=off"});

@@ -17,7 +17,7 @@ using Table = std::vector<std::vector<std::string>>;
 /// The sequences of one place that were measured, by group and name.
 class Grid {
   public:
-    Grid(const SequenceSuite& suite, const Store& store, const std::string& place) {
+    Grid(const SequenceSuite& suite, const Store& store, const std::string& place) : measure_(suite.measure) {
         for (const Sequence& s : suite.sequences) {
             const std::vector<FrameErrors>& frames = store.at(s.key()).frames;
             if (s.place->name != place || frames.empty()) continue;
@@ -36,13 +36,14 @@ class Grid {
     [[nodiscard]] double error(const std::string& group, const std::string& name, std::size_t frame) const {
         const std::vector<FrameErrors>* frames = at(group, name);
         return frames == nullptr || frame >= frames->size() ? std::numeric_limits<double>::quiet_NaN()
-                                                            : (*frames)[frame].error;
+                                                            : (*frames)[frame].*measure_;
     }
 
   private:
     static void add(Names& list, const std::string& name) {
         if (std::ranges::find(list, name) == list.end()) list.push_back(name);
     }
+    double FrameErrors::*measure_;
     std::map<std::pair<std::string, std::string>, const std::vector<FrameErrors>*> cells_;
 };
 

@@ -5,6 +5,7 @@
 
 #include "engine/scene/view.h"
 #include "sample_game/bench/places.h"
+#include "sample_game/bench/store.h"
 #include "sample_game/bench/suites.h"
 
 namespace tyndall::bench {
@@ -22,9 +23,10 @@ struct Sequence {
 
 struct SequenceSuite {
     std::string name, title;
-    std::string what;                 ///< for the report: what all sequences share
-    std::vector<Sequence> sequences;  ///< those of one place are neighbours
-    std::vector<std::string> limit;   ///< settings whose mean over many frames is compared too; empty: none
+    std::string what;                                    ///< for the report: what all sequences share
+    std::vector<Sequence> sequences;                     ///< those of one place are neighbours
+    double FrameErrors::*measure = &FrameErrors::error;  ///< in tables and plots
+    std::vector<std::string> limit;                      ///< settings whose mean over many frames is compared too
 };
 /// noise, filters, temporal, sequences (small, for the tests).
 [[nodiscard]] const std::vector<std::string>& sequence_suite_names();
