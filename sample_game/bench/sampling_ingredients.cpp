@@ -15,7 +15,7 @@ struct Variant {
     std::string name;
     std::vector<std::string> settings;
     int history_frames = 0;
-    int most_steps = 64;
+    int most_steps = 32;
 };
 
 /// What is compared: first nothing, then one ingredient after the other.
@@ -35,18 +35,19 @@ const std::vector<Variant>& variants() {
         return std::vector<Variant>{
             {"nothing", with({"noise=none"}, unfiltered), 0, 256},
             {"Bayer", with(bayer, unfiltered), 0, 256},
-            {"FAST", with(fast, unfiltered)},
+            {"FAST", with(fast, unfiltered), 0, 128},
             {"Bayer, gaussian15", with(bayer, wide)},
             {"Bayer, gaussian15, visibility", with(with(bayer, wide), {"reconstruct=visibility"})},
+            {"Bayer, gaussian1", with(bayer, narrow)},
             {"FAST, gaussian1", with(fast, narrow)},
             {"Bayer, gaussian15, half", with(with(bayer, wide), {"resolution=half"})},
-            {"Bayer, history", with(with(with(bayer, moving), unfiltered), history), settled, 16},
-            {"FAST, history", with(with(with(fast, slices), unfiltered), history), settled, 16},
-            {"Bayer, gaussian1, history", with(with(with(bayer, moving), narrow), history), settled, 16},
+            {"Bayer, history", with(with(with(bayer, moving), unfiltered), history), settled, 8},
+            {"FAST, history", with(with(with(fast, slices), unfiltered), history), settled, 8},
+            {"Bayer, gaussian1, history", with(with(with(bayer, moving), narrow), history), settled, 8},
             {"Bayer, gaussian15, visibility, history",
-             with(with(with(with(bayer, moving), wide), history), {"reconstruct=visibility"}), settled, 16},
+             with(with(with(with(bayer, moving), wide), history), {"reconstruct=visibility"}), settled, 8},
             {"Bayer, gaussian1, history, half",
-             with(with(with(with(bayer, moving), narrow), history), {"resolution=half"}), settled, 16},
+             with(with(with(with(bayer, moving), narrow), history), {"resolution=half"}), settled, 8},
         };
     }();
     return list;
