@@ -51,7 +51,7 @@ layout(location = 3) out vec4 out_transmittance;
 
 struct Kept {
     vec4 scattering;
-    vec3 transmittance;
+    vec4 transmittance;
     vec3 statistics;  // frames, standard deviation, mean of the last changes
     float acceptance;
 };
@@ -123,7 +123,7 @@ bool is_usable(vec4 scattering, vec4 surface) {
 }
 
 Kept kept_at(vec2 place, float inverse_depth, vec2 slope, ivec2 size) {
-    Kept sum = Kept(vec4(0.0), vec3(0.0), vec3(0.0), 0.0);
+    Kept sum = Kept(vec4(0.0), vec4(0.0), vec3(0.0), 0.0);
     if (any(lessThan(place, vec2(0.0))) || !all(lessThan(place, vec2(size)))) return sum;
     ivec2 base = taps == 1 ? ivec2(place) : ivec2(floor(place - 0.5));
     vec2 f = taps == 1 ? vec2(0.0) : place - 0.5 - vec2(base);
@@ -150,7 +150,7 @@ Kept kept_at(vec2 place, float inverse_depth, vec2 slope, ivec2 size) {
         sum.scattering += scattering * weight;
         sum.statistics += surface.yzw * weight;
 #if CHROMATIC
-        sum.transmittance += transmittance.rgb * weight;
+        sum.transmittance += transmittance * weight;
 #endif
         sum.acceptance += weight;
     }
@@ -264,7 +264,7 @@ void main() {
 
     vec3 place = vec3(gl_FragCoord.xy, 1.0);
     if (taps == 4) place = place_before(surface.x);
-    Kept kept = Kept(vec4(0.0), vec3(0.0), vec3(0.0), 0.0);
+    Kept kept = Kept(vec4(0.0), vec4(0.0), vec3(0.0), 0.0);
     if (taps > 0 && place.z > 0.0) kept = kept_at(place.xy, surface.x * place.z, surface.yz * place.z, size);
     float acceptance = kept.acceptance;
     vec2 statistics = vec2(0.0);
@@ -279,8 +279,7 @@ void main() {
 #if CLIP
     kept.scattering = clipped(kept.scattering, scattering_now, now, pixel, size, least_width);
 #if CHROMATIC
-    kept.transmittance =
-        clipped(vec4(kept.transmittance, 1.0), transmittance_now, transmittance, pixel, size, 0.0).rgb;
+    kept.transmittance = clipped(kept.transmittance, transmittance_now, transmittance, pixel, size, 0.0);
 #endif
 #endif
 
@@ -297,7 +296,7 @@ void main() {
     out_scattering = dithered_half(past + (now - past) * (1.0 - share), r);
     out_surface = vec4(surface.x, min(kept_frames, 255.0) + 1.0, statistics);
 #if CHROMATIC
-    vec4 past_transmittance = share > 0.0 ? vec4(kept.transmittance, past.a) : transmittance;
+    vec4 past_transmittance = share > 0.0 ? kept.transmittance : transmittance;
     out_transmittance = dithered_half(past_transmittance + (transmittance - past_transmittance) * (1.0 - share), r);
 #endif
     flush_work();

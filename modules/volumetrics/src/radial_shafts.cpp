@@ -23,8 +23,8 @@ const ProgramDesc program{.name = "volumetrics/radial_shafts",
                           .valid = {}};
 const ProgramRegistry::Registration registration(program);
 
-/// R16F: the sun's share over each pixel's ray.
-TextureRef add_visibility(PassList& passes, const PassResources& resources, const Inputs& inputs,
+/// R16F in `scattering`: the sun's share over each pixel's ray.
+Outputs add_visibility(PassList& passes, const PassResources& resources, const Inputs& inputs,
                           const Settings& settings, const FrameMedia& media, TemporalHistory& history) {
     Permutation permutation = fog_permutation(inputs, media);
     permutation["INTERVALS"] = settings.radial_occlusion == RadialOcclusion::intervals;
@@ -34,7 +34,7 @@ TextureRef add_visibility(PassList& passes, const PassResources& resources, cons
         passes.create("volumetrics/radial_visibility", {.format = GL_R16F, .size = {low.size, 1}});
     const gl::Program& shader = resources.shaders.get(visibility_program, permutation);
     visibility = add_fog_pass(passes, resources, low, {"volumetrics/radial_visibility", shader, {}, visibility});
-    return add_reconstruction(passes, resources, inputs, low, settings, visibility, history).scattering;
+    return add_reconstruction(passes, resources, inputs, low, settings, visibility, history);
 }
 
 }  // namespace
@@ -50,10 +50,13 @@ Outputs add_radial_shafts(PassList& passes, PassResources& resources, const Inpu
         return add_analytic_fog(passes, resources, inputs, settings, media);
     }
     passes.skip("volumetrics/analytic_fog", "there is a sun");
-    const TextureRef visibility = add_visibility(passes, resources, inputs, settings, media, history);
+    const Outputs visibility = add_visibility(passes, resources, inputs, settings, media, history);
     const gl::Program& shader = resources.shaders.get(program, fog_permutation(inputs, media));
-    return add_fog_pass(passes, resources, inputs,
-                        {"volumetrics/radial_shafts", shader, visibility, fog_targets(passes, inputs, media)});
+    Outputs outputs = add_fog_pass(
+        passes, resources, inputs,
+        {"volumetrics/radial_shafts", shader, visibility.scattering, fog_targets(passes, inputs, media)});
+    outputs.acceptance = visibility.acceptance;
+    return outputs;
 }
 
 }  // namespace tyndall::volumetrics
