@@ -1,6 +1,6 @@
 // One direction of a separable filter of 2 radius + 1 taps, of scattering and transmittance. DEPTH 0 knows no depth, 1
 // weighs taps by their depth against the pixel's, 2 also by their depth against the plane that the pixel lies in.
-// Taps outside of the picture are left out, and the rest is renormalised.
+// Taps outside of the picture are left out, and the rest is renormalised. NARROWS: see narrowing().
 #include "shaders/lib/work.glsl"
 #include "shaders/lib/pack.glsl"
 #include "shaders/volumetrics/depth_weight.glsl"
@@ -9,6 +9,10 @@ layout(binding = 0) uniform sampler2D depth_texture;
 layout(binding = 1) uniform sampler2D scattering_texture;
 #if CHROMATIC
 layout(binding = 2) uniform sampler2D transmittance_texture;
+#endif
+#if NARROWS
+layout(binding = 3) uniform sampler2D frames_texture;  // y frames in the mean that the pixel is, at least 1
+uniform float kernel_variance;                         // px²
 #endif
 uniform int radius;        // at most 7 px
 uniform vec4 weights_0_3;  // by distance from the centre, px; the first is positive
@@ -65,7 +69,28 @@ float plane_slope(float d, vec2 texel_step) {
 }
 #endif
 
+#if NARROWS
+// Noise in the mean over n frames falls, what a wide kernel smears stays. An edge's squared error grows with the width
+// sigma, that of noise of variance 1 / n falls with sigma² in two directions: their sum is least for sigma ~ n^(-1/3). A
+// kernel of variance v is taken to be right for one frame, or a wider one of 4 px² (of 8 steps of dithered visibility).
+// Taps are weighed by exp(-k x²) as well, which makes of a Gaussian kernel one of variance max(v, 4 px²) / n^(2/3), but not
+// less than the least. k = 0, the kernel as it is, where it is not wider than that: always at n = 1.
+const float variance_of_one_frame = 4.0, least_variance = 0.25;  // px²
+float narrowing() {
+    float n = max(texelFetch(frames_texture, ivec2(gl_FragCoord.xy), 0).y, 1.0);
+    count_work(WORK_TEXTURE_FETCHES, 1u);
+    float inverse = pow(n, 2.0 / 3.0) / max(kernel_variance, variance_of_one_frame);
+    return 0.5 * max(min(inverse, 1.0 / least_variance) - 1.0 / kernel_variance, 0.0);
+}
+#endif
+
 void main() {
+    int reach = radius;
+#if NARROWS
+    float narrow = narrowing();
+    // As far as exp(-k x²) > 1 / 512.
+    reach = min(radius, int(sqrt(6.24 / max(narrow, 1.0e-3))));
+#endif
     vec4 sum = textureLod(scattering_texture, uv, 0.0) * weights_0_3.x;
 #if CHROMATIC
     vec4 transmittance = textureLod(transmittance_texture, uv, 0.0) * weights_0_3.x;
@@ -81,8 +106,11 @@ void main() {
         if (slope_tolerance > 0.0) allowed = slope_tolerance * (abs(slope) + abs(plane_slope(d, texel * direction.yx)));
     }
 #endif
-    for (int i = 1; i <= radius; ++i) {
+    for (int i = 1; i <= reach; ++i) {
         float spatial = i < 4 ? weights_0_3[i] : weights_4_7[i - 4];
+#if NARROWS
+        spatial *= exp(-narrow * float(i * i));
+#endif
         for (int side = -1; side <= 1; side += 2) {
             float offset = float(i * side);
             vec2 p = uv + texel * direction * offset;
@@ -104,9 +132,9 @@ void main() {
             total += weight;
         }
     }
-    count_work(WORK_TEXTURE_FETCHES, uint((2 * radius + 1) * (1 + CHROMATIC)));
+    count_work(WORK_TEXTURE_FETCHES, uint((2 * reach + 1) * (1 + CHROMATIC)));
 #if DEPTH
-    count_work(WORK_TEXTURE_FETCHES, uint(2 * radius + 1));
+    count_work(WORK_TEXTURE_FETCHES, uint(2 * reach + 1));
 #endif
     out_scattering = round_to_half(sum / total);
 #if CHROMATIC

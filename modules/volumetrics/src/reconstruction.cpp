@@ -29,10 +29,15 @@ Outputs add_reconstruction(PassList& passes, const PassResources& resources, con
     const bool temporal = settings.temporal != Temporal::off;
     const bool before = temporal && settings.temporal_place == TemporalPlace::before;
     if (!temporal) passes.skip("volumetrics/temporal", "temporal is off");
-    if (before) result = add_temporal(passes, resources, low, settings, result, history);
+    TextureRef frames;
+    if (before) {
+        const TemporalMean mean = add_temporal(passes, resources, low, settings, result, history);
+        result = mean.light;
+        if (settings.filter_narrows && settings.temporal == Temporal::accumulate) frames = mean.frames;
+    }
     const TextureRef acceptance = result.acceptance;
     if (settings.filter != Filter::none)
-        result = add_filter(passes, resources, low, settings, result);
+        result = add_filter(passes, resources, low, settings, result, frames);
     else
         for (const char* name : {"volumetrics/filter_horizontal", "volumetrics/filter_vertical"})
             passes.skip(name, "filter is none");
@@ -41,7 +46,7 @@ Outputs add_reconstruction(PassList& passes, const PassResources& resources, con
         result = add_upsample(passes, resources, inputs, low, settings, result);
     else
         passes.skip("volumetrics/upsample", "resolution is full");
-    if (temporal && !before) return add_temporal(passes, resources, inputs, settings, result, history);
+    if (temporal && !before) return add_temporal(passes, resources, inputs, settings, result, history).light;
     result.acceptance = acceptance;
     return result;
 }

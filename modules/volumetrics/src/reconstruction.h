@@ -29,14 +29,19 @@ struct MarchedLight;
                                          const Inputs& low, const Settings& settings, const MarchedLight& marched,
                                          TemporalHistory& history);
 
-/// The spatial filter, two passes at the resolution of `source`; settings.filter is not none.
+/// The spatial filter, two passes at the resolution of `source`; settings.filter is not none. With `frames` (y: frames
+/// in the mean that each pixel of `source` is) the kernel is the narrower the more there are.
 [[nodiscard]] Outputs add_filter(PassList& passes, const PassResources& resources, const Inputs& low,
-                                 const Settings& settings, const Outputs& source);
+                                 const Settings& settings, const Outputs& source, TextureRef frames);
 /// From the resolution of `low` to the host's.
 [[nodiscard]] Outputs add_upsample(PassList& passes, const PassResources& resources, const Inputs& inputs,
                                    const Inputs& low, const Settings& settings, const Outputs& source);
-/// The mean over frames at the resolution of `at`, settings.temporal is not off. Outputs::acceptance is set.
-[[nodiscard]] Outputs add_temporal(PassList& passes, const PassResources& resources, const Inputs& at,
-                                   const Settings& settings, const Outputs& source, TemporalHistory& history);
+struct TemporalMean {
+    Outputs light;      ///< Outputs::acceptance is set
+    TextureRef frames;  ///< float, y: frames in the mean, 1 … 256
+};
+/// The mean over frames at the resolution of `at`, settings.temporal is not off.
+[[nodiscard]] TemporalMean add_temporal(PassList& passes, const PassResources& resources, const Inputs& at,
+                                        const Settings& settings, const Outputs& source, TemporalHistory& history);
 
 }  // namespace tyndall::volumetrics

@@ -104,6 +104,11 @@ const SettingsTable& settings_table() {
                   {"filter_sigma", "Filter sigma",
                    "Standard deviation of the filter gaussian15; beyond 3.5 the 15 taps cut it off.", "px"},
                   0.3, 7)
+            .boolean(&S::filter_narrows,
+                     {"filter_narrows", "Filter narrows",
+                      "The filter is the narrower the more frames are in a pixel's mean, for less noise is left. Where "
+                      "temporal is accumulate, before the filter."},
+                     Effect::permutation)
             .choice(&S::filter_depth,
                     {"filter_depth", "Filter and depth",
                      "Whether the filter stops at depth edges: not at all; where depth differs from the pixel's; or "

@@ -137,8 +137,8 @@ void TemporalHistory::set_changes(const gl::Program& shader) const {
     shader.set("known_frames", frames);
 }
 
-Outputs add_temporal(PassList& passes, const PassResources& resources, const Inputs& at, const Settings& settings,
-                     const Outputs& source, TemporalHistory& history) {
+TemporalMean add_temporal(PassList& passes, const PassResources& resources, const Inputs& at, const Settings& settings,
+                          const Outputs& source, TemporalHistory& history) {
     const bool chromatic = static_cast<bool>(source.transmittance);
     history.begin_frame(at, settings, passes.desc(source.scattering),
                         chromatic ? passes.desc(source.transmittance) : gl::TextureDesc{.size = {0, 0, 0}});
@@ -210,7 +210,7 @@ Outputs add_temporal(PassList& passes, const PassResources& resources, const Inp
             gl::draw_fullscreen();
             history.end_frame();
         });
-    return target;
+    return {target, surface};
 }
 
 }  // namespace tyndall::volumetrics

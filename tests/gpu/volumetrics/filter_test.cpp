@@ -70,6 +70,7 @@ class VolumetricsFilter : public GlTest {
         host.ambient = glm::vec3(1);
         host.global = {{.sigma_s = glm::vec3(0.05F), .sigma_a = glm::vec3(0.05F)}};
         settings.filter_sigma = gaussian15_sigma;
+        settings.reconstruct = volumetrics::Reconstruct::light;
     }
     StubHost host;
     Settings settings = plain_settings(1);
@@ -324,6 +325,85 @@ TEST_F(VolumetricsFilter, OnlyTheTapsOfTheKernelAreFetched) {
             for (const char* pass : {"volumetrics/filter_horizontal", "volumetrics/filter_vertical"})
                 EXPECT_EQ(frame.work.at(pass)[int(gl::Work::texture_fetches)], 48U * 32U * unsigned(fetches));
         }
+}
+
+/// The kernel after a mean of n frames: a Gaussian one of variance v becomes one of max(v, 4 px²) / n^(2/3), or of
+/// 0.25 px², by a second Gaussian that multiplies all kernels; none becomes wider.
+Taps narrowed(Taps taps, int n) {
+    double variance = 0;
+    for (std::size_t x = 1; x < taps.size(); ++x) variance += 2 * taps[x] * double(x * x);
+    const double target = std::max(std::max(variance, 4.0) / std::cbrt(double(n) * n), 0.25);
+    const double added = std::max(1 / target - 1 / variance, 0.0);
+    for (std::size_t x = 0; x < taps.size(); ++x) taps[x] *= std::exp(-0.5 * double(x * x) * added);
+    return normalised(taps);
+}
+
+TEST_F(VolumetricsFilter, NarrowsByTheFramesOfThePixelsMean) {
+    host.view_depth = [](int x, int y) { return x == 24 && y == 15 ? 300.0F : 0.2F; };
+    for (const Published& kernel : kernels) {
+        settings.temporal = volumetrics::Temporal::off;
+        const Frame sharp = render(Filter::none), plain = render(kernel.filter);
+        const double low = sharp.scattering.at(0, 0)[0], height = sharp.scattering.at(24, 16)[0] - low;
+        settings.temporal = volumetrics::Temporal::accumulate;
+        settings.temporal_place = volumetrics::TemporalPlace::before;
+        for (int n = 1; n <= 32; ++n) {
+            const Frame frame = render(kernel.filter);
+            if (n == 1) {
+                EXPECT_EQ(frame.scattering.pixels, plain.scattering.pixels);
+            }
+            if (n != 1 && n != 2 && n != 8 && n != 32) continue;
+            const Taps taps = narrowed(kernel.taps, n);
+            for (int x = -8; x <= 8; ++x) {
+                const auto i = static_cast<std::size_t>(std::abs(x));
+                const double expected = i < taps.size() ? taps[i] * taps[0] : 0;
+                // Taps of less than 1 / 512 of what they were may be left out.
+                EXPECT_NEAR((frame.scattering.at(24 + x, 16)[0] - low) / height, expected, 2e-3 * expected + 5e-4)
+                    << static_cast<int>(kernel.filter) << ", " << n << " frames: " << x;
+            }
+        }
+    }
+}
+
+TEST_F(VolumetricsFilter, KeepsItsWidthWhereNothingCountsFramesOrItMayNot) {
+    settings.filter_sigma = 3;
+    host.view_depth = [](int x, int) { return x < 24 ? 5.0F : 20.0F; };
+    using volumetrics::Temporal;
+    using volumetrics::TemporalPlace;
+    const auto still = [&](Temporal temporal, TemporalPlace place, bool narrows) {
+        settings.temporal = Temporal::off;
+        (void)render(Filter::none);
+        settings.temporal = temporal;
+        settings.temporal_place = place;
+        settings.filter_narrows = narrows;
+        (void)render(Filter::gaussian15);
+        (void)render(Filter::gaussian15);
+        return render(Filter::gaussian15).scattering;
+    };
+    const Image plain = still(Temporal::off, TemporalPlace::before, true);
+    EXPECT_GT(difference(still(Temporal::accumulate, TemporalPlace::before, true), plain), 0.01);
+    EXPECT_LT(difference(still(Temporal::accumulate, TemporalPlace::before, false), plain), 1e-3);
+    EXPECT_LT(difference(still(Temporal::accumulate, TemporalPlace::after, true), plain), 1e-3);
+    EXPECT_LT(difference(still(Temporal::acceptance, TemporalPlace::before, true), plain), 1e-3);
+}
+
+TEST_F(VolumetricsFilter, NarrowKernelsKeepConstantsAndFetchLess) {
+    host.count_work = true;
+    settings.temporal = volumetrics::Temporal::accumulate;
+    settings.temporal_place = volumetrics::TemporalPlace::before;
+    for (const glm::vec3 sigma_a : {glm::vec3(0.05F), glm::vec3(0.01F, 0.2F, 0.8F)}) {
+        host.global[0].sigma_a = sigma_a;
+        const Frame first = render(Filter::gaussian15);
+        Frame frame;
+        for (int n = 2; n <= 9; ++n) frame = render(Filter::gaussian15);
+        EXPECT_LT(difference(frame.scattering, first.scattering), 1e-3);
+        EXPECT_LT(difference(frame.transmittance, first.transmittance), 1e-3);
+        for (const char* pass : {"volumetrics/filter_horizontal", "volumetrics/filter_vertical"})
+            EXPECT_LT(frame.work.at(pass)[int(gl::Work::texture_fetches)],
+                      first.work.at(pass)[int(gl::Work::texture_fetches)]);
+        settings.temporal = volumetrics::Temporal::off;  // ends the history
+        (void)render(Filter::none);
+        settings.temporal = volumetrics::Temporal::accumulate;
+    }
 }
 
 TEST_F(VolumetricsFilter, AnyDepthGivesFiniteValuesInRange) {

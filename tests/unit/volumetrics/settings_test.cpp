@@ -19,7 +19,7 @@ TEST(VolumetricsSettings, TableHoldsTheDefaultsAndExplainsEveryRow) {
         EXPECT_FALSE(row.label.empty()) << row.key;
         EXPECT_TRUE(row.help.ends_with('.')) << row.key;
     }
-    EXPECT_EQ(keys.size(), 66U);  // one row for each member of Settings
+    EXPECT_EQ(keys.size(), 67U);  // one row for each member of Settings
 }
 
 TEST(VolumetricsSettings, NamesAreInEnumOrder) {

@@ -55,6 +55,7 @@ struct Settings {
     TemporalKernel fast_time = TemporalKernel::ema;
     Filter filter = Filter::gaussian15;
     float filter_sigma = 2.0f;
+    bool filter_narrows = true;
     FilterDepth filter_depth = FilterDepth::relative;
     float filter_depth_falloff = 3.0f;
     Reconstruct reconstruct = Reconstruct::light;
