@@ -24,6 +24,7 @@ class AcceptanceView : public GlTest {
         builder_.scene.media.push_back(fog);
         options_.layer = "acceptance";
         options_.volumetrics.temporal = Temporal::acceptance;
+        options_.volumetrics.temporal_weight = 0.5F;  // no more than the camera's travel leaves
         options_.volumetrics.noise = Noise::none;
         renderer_.prepare(builder_.finish());
     }

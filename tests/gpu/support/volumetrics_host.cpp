@@ -211,6 +211,7 @@ Settings plain_settings(int steps) {
     settings.steps = steps;
     settings.noise = volumetrics::Noise::none;
     settings.filter = volumetrics::Filter::none;
+    settings.temporal = volumetrics::Temporal::off;
     return settings;
 }
 

@@ -216,6 +216,7 @@ const std::vector<std::function<float(int, int)>> planes{
     [](int x, int y) { return 200 / (80 - 0.6F * static_cast<float>(x) + 2 * static_cast<float>(y)); }};
 
 TEST_F(VolumetricsFilter, PlanesAreFilteredAsIfThereWereNoDepth) {
+    settings.reconstruct = volumetrics::Reconstruct::light;
     dither_shadows();
     for (const auto& plane : planes)
         for (const Published& kernel : kernels) {

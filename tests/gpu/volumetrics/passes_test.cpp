@@ -123,6 +123,7 @@ TEST_F(VolumetricsPasses, WorkIsCountedExactly) {
     }
     Settings settings = plain_settings(steps);
     settings.filter = volumetrics::Filter::gaussian15;
+    settings.reconstruct = volumetrics::Reconstruct::light;
     EXPECT_EQ(host.render(settings).work.at("volumetrics/filter_vertical")[int(gl::Work::texture_fetches)],
               pixels * 30);
 }

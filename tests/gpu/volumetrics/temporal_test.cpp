@@ -38,7 +38,9 @@ class VolumetricsTemporal : public GlTest {
     static Settings settings(Temporal temporal, float weight = 0.1F) {
         Settings s = plain_settings(4);
         s.temporal = temporal;
+        s.temporal_place = TemporalPlace::after;
         s.temporal_weight = weight;
+        s.temporal_scale = 4;
         s.temporal_clip = false;
         s.temporal_reject = false;
         return s;
@@ -47,6 +49,7 @@ class VolumetricsTemporal : public GlTest {
     static Settings noisy(Temporal temporal) {
         Settings s = plain_settings(4);
         s.temporal = temporal;
+        s.temporal_place = TemporalPlace::after;
         s.noise = volumetrics::Noise::white;
         s.noise_time = volumetrics::NoiseTime::own;
         return s;

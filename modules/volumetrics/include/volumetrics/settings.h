@@ -58,14 +58,14 @@ struct Settings {
     bool filter_narrows = true;
     FilterDepth filter_depth = FilterDepth::relative;
     float filter_depth_falloff = 3.0f;
-    Reconstruct reconstruct = Reconstruct::light;
+    Reconstruct reconstruct = Reconstruct::visibility;
     Resolution resolution = Resolution::full;
     DepthChoice resolution_depth = DepthChoice::checkerboard;
     Upsample upsample = Upsample::bilateral;
     Temporal temporal = Temporal::off;
-    TemporalPlace temporal_place = TemporalPlace::after;
+    TemporalPlace temporal_place = TemporalPlace::before;
     float temporal_weight = 0.1f;
-    float temporal_scale = 4.0f;
+    float temporal_scale = 16.0f;
     int temporal_frames = 32;
     bool temporal_clip = true;
     bool temporal_reject = true;
