@@ -8,7 +8,7 @@ namespace tyndall::volumetrics {
 namespace {
 
 constexpr float unlimited = 1e6F;  ///< m, of a lamp without a range
-constexpr float one_frame = 2.0F;  ///< m
+constexpr float one_frame = 0.1F;  ///< m
 constexpr float same_lamp = 2.0F;  ///< m: farther, one came and another went
 
 auto key(const Lamp& lamp) {

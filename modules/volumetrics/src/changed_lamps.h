@@ -15,7 +15,7 @@ struct ChangedLamp {
 };
 
 /// Lamps are told apart by place, range and axis, for their indices may be others in each frame. One that moved by
-/// 2 m, or turned as far at half its range, is worth one frame, less movement more frames; so is one that came or
+/// 0.1 m, or turned as far at half its range, is worth one frame, less movement more frames; so is one that came or
 /// went.
 [[nodiscard]] std::vector<ChangedLamp> changed_lamps(const std::vector<Lamp>& before, const std::vector<Lamp>& now);
 
