@@ -60,7 +60,8 @@ class Passes : public ::testing::Test {
 };
 
 const std::vector<std::string> all_but_injection{"volumetrics/march", "volumetrics/filter_horizontal",
-                                                 "volumetrics/filter_vertical", "volumetrics/composite"};
+                                                 "volumetrics/filter_vertical", "volumetrics/relight",
+                                                 "volumetrics/composite"};
 
 TEST_F(Passes, NoMediumIsBitIdenticalToVolumetricsOff) {
     const SceneSpec spec{.sun = true, .lamps = {lamp}};
@@ -125,8 +126,8 @@ TEST_F(Passes, LowResolutionTakesTwoPassesAndAFourthOfTheMarch) {
     const Frame full = draw(spec, {"--set", "filter=none"});
     const Frame half = draw(spec, {"--set", "filter=none", "--set", "resolution=half"});
     EXPECT_THAT(with_prefix(half, "volumetrics/"),
-                UnorderedElementsAreArray({"volumetrics/depth_downsample", "volumetrics/march", "volumetrics/upsample",
-                                           "volumetrics/composite"}));
+                UnorderedElementsAreArray({"volumetrics/depth_downsample", "volumetrics/march",
+                                           "volumetrics/upsample", "volumetrics/composite"}));
     const auto samples = [](const Frame& frame) {
         return frame.stats["work"]["volumetrics/march"]["medium_samples"].get<double>();
     };

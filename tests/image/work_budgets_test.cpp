@@ -163,7 +163,7 @@ TEST_F(ClosedWork, NothingIsSampledBehindWhatIsOpaque) {
 
 TEST_F(ClosedWork, LocalMediaAreInjectedOnceAFroxelAndFetchedTwiceASample) {
     const std::vector<std::string> settings{"froxels_x=40", "froxels_y=24", "froxels_z=16",
-                                            "light_transmittance=false"};
+                                            "light_transmittance=false", "reconstruct=light"};
     const json work = march({.sun = true, .media = "[" + everywhere + "]"}, on_the_floor, settings);
     // Slice k begins at 0.5 * 256^(k/16) m: the ninth is the first that begins behind the floor, 9 m away, and the
     // march may filter over one more.
@@ -174,14 +174,17 @@ TEST_F(ClosedWork, LocalMediaAreInjectedOnceAFroxelAndFetchedTwiceASample) {
 }
 
 TEST_F(ClosedWork, FilterAndCompositeFetchWhatTheirFiltersSay) {
-    // 15 taps of scattering; bilateral: and of depth; a medium that colours light: and of transmittance.
+    // 15 taps of scattering; bilateral: and of depth; a medium that colours light: and of transmittance. Of
+    // visibility: that of the sun, whatever the medium.
     struct Case {
         const std::string& medium;
         std::vector<std::string> filter;
         int textures, composite;
     };
-    for (const Case& c : {Case{thin, {"filter_depth=none"}, 1, 1}, Case{thin, {"filter_depth=relative"}, 2, 1},
-                          Case{colored, {"filter_depth=relative"}, 3, 2}}) {
+    for (const Case& c : {Case{thin, {"reconstruct=light", "filter_depth=none"}, 1, 1},
+                          Case{thin, {"reconstruct=light", "filter_depth=relative"}, 2, 1},
+                          Case{colored, {"reconstruct=light", "filter_depth=relative"}, 3, 2},
+                          Case{colored, {"reconstruct=visibility", "filter_depth=relative"}, 2, 2}}) {
         march({.sun = true, .media = "[" + c.medium + "]"}, on_the_floor, c.filter);
         for (const char* pass : {"volumetrics/filter_horizontal", "volumetrics/filter_vertical"})
             EXPECT_EQ(count(pass, "texture_fetches"), pixels * 15 * c.textures) << c.filter.back();
