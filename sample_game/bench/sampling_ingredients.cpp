@@ -26,14 +26,16 @@ const std::vector<Variant>& variants() {
             a.insert(a.end(), b.begin(), b.end());
             return a;
         };
-        const Settings bayer{"noise=bayer"}, fast{"noise=fast"}, unfiltered{"filter=none"};
+        const Settings light{"reconstruct=light", "temporal_place=after"};
+        const Settings bayer = with(light, {"noise=bayer"}), fast = with(light, {"noise=fast"});
+        const Settings unfiltered{"filter=none"};
         const Settings wide{"filter=gaussian15", "filter_depth=relative"};
         const Settings narrow{"filter=gaussian1", "filter_depth=plane"};
         const Settings moving{"noise_time=golden_ratio"}, slices{"noise_time=own"};
         const Settings history{"temporal=accumulate", "temporal_clip=false"};
         constexpr int settled = 32;
         return std::vector<Variant>{
-            {"nothing", with({"noise=none"}, unfiltered), 0, 256},
+            {"nothing", with(with(light, {"noise=none"}), unfiltered), 0, 256},
             {"Bayer", with(bayer, unfiltered), 0, 256},
             {"FAST", with(fast, unfiltered), 0, 128},
             {"Bayer, gaussian15", with(bayer, wide)},
@@ -45,7 +47,9 @@ const std::vector<Variant>& variants() {
             {"FAST, history", with(with(with(fast, slices), unfiltered), history), settled, 8},
             {"Bayer, gaussian1, history", with(with(with(bayer, moving), narrow), history), settled, 8},
             {"Bayer, gaussian15, visibility, history",
-             with(with(with(with(bayer, moving), wide), history), {"reconstruct=visibility"}), settled, 8},
+             with(with(with(with(bayer, moving), wide), history),
+                  {"reconstruct=visibility", "temporal_place=before"}),
+             settled, 8},
             {"Bayer, gaussian1, history, half",
              with(with(with(with(bayer, moving), narrow), history), {"resolution=half"}), settled, 8},
         };

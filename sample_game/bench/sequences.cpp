@@ -18,8 +18,10 @@ Settings joined(Settings a, const Settings& b) {
     return a;
 }
 
+/// Light is what is filtered, and history comes last, unless what is added to this says otherwise.
 Settings march(int steps) {
-    return {"technique=ray_march", fmt::format("steps={}", steps), "resolution=full"};
+    return {"technique=ray_march", fmt::format("steps={}", steps), "resolution=full", "reconstruct=light",
+            "temporal_place=after"};
 }
 
 /// The exponential mean of the cloud thesis, and nothing else that could change it.
@@ -89,7 +91,10 @@ std::vector<Sequence> temporal_sequences(const Place& place, glm::ivec2 size) {
          {"noise=white_tile", "noise_size=4", "noise_time=own", "filter=uniform9", "filter_depth=plane"}},
         {"Bayer, golden ratio", {"noise=bayer", "noise_time=golden_ratio", "filter=none"}},
         {"FAST", {"noise=fast", "noise_time=own", "filter=none"}},
-        {"FAST, gaussian1", {"noise=fast", "noise_time=own", "filter=gaussian1", "filter_depth=plane"}}};
+        {"FAST, gaussian1", {"noise=fast", "noise_time=own", "filter=gaussian1", "filter_depth=plane"}},
+        {"visibility, gaussian15",
+         {"noise=bayer", "noise_time=golden_ratio", "filter=gaussian15", "reconstruct=visibility",
+          "temporal_place=before"}}};
     for (const auto& [base, settings] : bases) {
         const auto add = [&](const std::string& name, const Settings& more) {
             list.push_back(

@@ -90,6 +90,8 @@ void moderate(FrameOptions& options, Random& random) {
     options.volumetrics.max_distance = static_cast<float>(random.logarithmic(120, 2000));
     options.volumetrics.stepping_strength = std::min(options.volumetrics.stepping_strength, 4.0f);
     options.volumetrics.lamp_integration = volumetrics::LampIntegration::segment;
+    options.volumetrics.resolution = volumetrics::Resolution::full;
+    options.volumetrics.temporal = volumetrics::Temporal::off;
     options.render.cluster_far = std::max(options.render.cluster_far, 100.0f);
 }
 

@@ -50,8 +50,10 @@ Findings Run::check(int number) {
             const Scene scene = pose_scene(worlds_[frame.world].scene, frame);
             compare_with_truth(frame, scene, layers, random, totals.truth, findings);
         }
-        const bool blurred = frame.options.volumetrics.filter != volumetrics::Filter::none;
-        if (!blurred && has_surface(layers.depth) && has_monotonic_transmittance(frame)) {
+        const volumetrics::Settings& v = frame.options.volumetrics;
+        const bool of_own_ray = v.filter == volumetrics::Filter::none && v.temporal == volumetrics::Temporal::off &&
+                                v.resolution == volumetrics::Resolution::full;
+        if (of_own_ray && has_surface(layers.depth) && has_monotonic_transmittance(frame)) {
             const Layers sky = render(frame, World::nothing);
             totals.depth_pixels += check_monotonic(layers, sky, frame.options.volumetrics.steps, findings);
         }
