@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "froxel_passes.h"
+#include "reprojection.h"
 #include "shaders/shared/bindings.h"
 
 namespace tyndall::volumetrics {
@@ -20,10 +21,6 @@ const ProgramRegistry::Registration registration(program);
 
 /// Froxels of a group of froxel_history.comp: its columns, and RUN.
 constexpr glm::ivec3 group{16, 16, 16};
-
-/// Turn of the sun [rad] after which a mean of its visibility is worth one frame: it moves the shadow of something
-/// 20 m away by 0.2 m, the size of a froxel at 25 m.
-constexpr float sun_turn = 0.01F;
 
 /// R3 sequence (Roberts 2018): multiples of the inverse powers of the root of x^4 = x + 1.
 constexpr glm::dvec3 sequence_step{0.8191725133961645, 0.6710436067037893, 0.5497004779019703};
@@ -69,9 +66,8 @@ glm::vec3 FroxelHistory::jitter() const {
 }
 
 void FroxelHistory::set_uniforms(const gl::Program& shader) const {
-    // In double precision: far from the origin the two views nearly cancel.
-    const glm::dmat4 moved = glm::dmat4(previous_.view) * glm::inverse(glm::dmat4(current_.view));
-    shader.set("previous_clip_from_view", glm::mat4(glm::dmat4(previous_.projection) * moved));
+    shader.set("previous_clip_from_view",
+               previous_clip_from_view(previous_.view, previous_.projection, current_.view));
     shader.set("previous_distribution", previous_.distribution);
     shader.set("previous_depths", previous_.depths);
     shader.set("previous_begins", previous_.begins);

@@ -8,6 +8,7 @@
 #include "engine/gl/state.h"
 #include "engine/gl/vertex_array.h"
 #include "reconstruction.h"
+#include "reprojection.h"
 #include "shaders/shared/bindings.h"
 
 namespace tyndall::volumetrics {
@@ -21,9 +22,8 @@ const ProgramDesc program{
     .valid = {}};
 const ProgramRegistry::Registration registration(program);
 
-/// Turn of the sun [rad], and relative change of a global medium, in one frame after which no mean is worth more
-/// than that frame. The first moves the shadow of something 20 m away by 0.2 m.
-constexpr float sun_turn = 0.01F, medium_change = 0.05F;
+/// Relative change of a global medium in one frame after which no mean is worth more than that frame.
+constexpr float medium_change = 0.05F;
 /// The same of the camera [m]: light in front of a surface is not reprojected with it.
 constexpr float camera_travel = 1.0F;
 /// Lamps that change in one frame, as many as temporal.frag has place for. The change of more is everywhere.
@@ -106,10 +106,8 @@ bool TemporalHistory::still() const {
     return !current_.motion && previous_.view == current_.view && previous_.projection == current_.projection;
 }
 
-glm::mat4 TemporalHistory::previous_clip_from_view() const {
-    // In double precision: far from the origin the two views nearly cancel.
-    const glm::dmat4 moved = glm::dmat4(previous_.view) * glm::inverse(glm::dmat4(current_.view));
-    return {glm::dmat4(previous_.projection) * moved};
+glm::mat4 TemporalHistory::clip_before_from_view() const {
+    return previous_clip_from_view(previous_.view, previous_.projection, current_.view);
 }
 
 float TemporalHistory::known_frames() const {
@@ -137,8 +135,8 @@ void TemporalHistory::set_changes(const gl::Program& shader) const {
     shader.set("known_frames", frames);
 }
 
-TemporalMean add_temporal(PassList& passes, const PassResources& resources, const Inputs& at, const Settings& settings,
-                          const Outputs& source, TemporalHistory& history) {
+TemporalMean add_temporal(PassList& passes, const PassResources& resources, const Inputs& at,
+                          const Settings& settings, const Outputs& source, TemporalHistory& history) {
     const bool chromatic = static_cast<bool>(source.transmittance);
     history.begin_frame(at, settings, passes.desc(source.scattering),
                         chromatic ? passes.desc(source.transmittance) : gl::TextureDesc{.size = {0, 0, 0}});
@@ -205,7 +203,7 @@ TemporalMean add_temporal(PassList& passes, const PassResources& resources, cons
                 history.set_changes(shader);
             }
             shader.set("frame", history.frame());
-            shader.set("previous_clip_from_view", history.previous_clip_from_view());
+            shader.set("previous_clip_from_view", history.clip_before_from_view());
             shader.use();
             gl::draw_fullscreen();
             history.end_frame();

@@ -30,7 +30,7 @@ class TemporalHistory {
 
     /// Camera and surfaces are where they were.
     [[nodiscard]] bool still() const;
-    [[nodiscard]] glm::mat4 previous_clip_from_view() const;
+    [[nodiscard]] glm::mat4 clip_before_from_view() const;
     /// Sets the uniforms of temporal.frag that tell what is known to have changed since the frame before: the sun
     /// turned, or came or went; the camera travels; global media are others; lamps moved, came or went.
     void set_changes(const gl::Program& shader) const;
