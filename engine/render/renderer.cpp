@@ -159,6 +159,7 @@ void Renderer::Impl::add_passes(FrameContext& frame, LightSources& sources, cons
     add_lighting_inputs(media, sources, lights, g.depth);
     media.motion = g.motion;
     media.transparents = transparent.gather(frame);
+    media.acceptance = options.show_acceptance || layers.contains("acceptance");
     volumetrics->prepare(media, options.volumetrics);
     const volumetrics::LightTransmittance transmittance =
         volumetrics->add_light_passes(passes, media, options.volumetrics);

@@ -44,10 +44,10 @@ uniform mat4 previous_clip_from_view;
 layout(location = 0) out vec4 out_scattering;
 // x 1 / view depth (1/m), 0 sky; y frames; of REJECT: z standard deviation, w mean of the last changes, in radiance.
 layout(location = 1) out vec4 out_surface;
-layout(location = 2) out float out_acceptance;
 #if CHROMATIC
-layout(location = 3) out vec4 out_transmittance;
+layout(location = 2) out vec4 out_transmittance;
 #endif
+layout(location = 2 + CHROMATIC) out float out_acceptance;  // attached where it is asked for
 
 struct Kept {
     vec4 scattering;

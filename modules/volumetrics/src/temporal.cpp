@@ -152,7 +152,8 @@ TemporalMean add_temporal(PassList& passes, const PassResources& resources, cons
     Outputs target = source;
     target.scattering = import(history.scattering().current(), "volumetrics/temporal_scattering");
     target.transmittance = import(history.transmittance().current(), "volumetrics/temporal_transmittance");
-    target.acceptance = passes.create("volumetrics/acceptance", {.format = GL_R16F, .size = {at.size, 1}});
+    if (at.acceptance)
+        target.acceptance = passes.create("volumetrics/acceptance", {.format = GL_R16F, .size = {at.size, 1}});
 
     const bool moves = reprojects(settings);
     const bool counted = settings.temporal == Temporal::accumulate;
@@ -169,8 +170,8 @@ TemporalMean add_temporal(PassList& passes, const PassResources& resources, cons
                 builder.sample(ref);
             target.scattering = builder.attach_color(target.scattering);
             surface = builder.attach_color(surface);
-            target.acceptance = builder.attach_color(target.acceptance);
             if (chromatic) target.transmittance = builder.attach_color(target.transmittance);
+            if (target.acceptance) target.acceptance = builder.attach_color(target.acceptance);
         },
         [=, &shader, &resources, &history, motion = at.motion, depth = at.depth,
          low = settings.temporal_place == TemporalPlace::before, mode = settings.temporal,

@@ -28,6 +28,7 @@ class VolumetricsTemporal : public GlTest {
     StubHost host, other;
     float turn = 0;      ///< of the camera about +Y, rad
     gl::Texture motion;  ///< of every pixel, see Inputs::motion
+    bool asks_acceptance = true;
 
     VolumetricsTemporal() {
         host.size = {16, 8};
@@ -70,6 +71,7 @@ class VolumetricsTemporal : public GlTest {
         Inputs in = host.inputs(passes);
         in.view = glm::rotate(glm::mat4(1), turn, glm::vec3(0, 1, 0)) * in.view;
         if (motion) in.motion = passes.import("motion", motion);
+        in.acceptance = asks_acceptance;
         host.volumetrics().prepare(in, s);
         const volumetrics::Outputs out = host.volumetrics().add_passes(passes, in, s);
         passes.export_texture(out.scattering);

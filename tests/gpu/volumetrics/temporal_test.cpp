@@ -127,6 +127,27 @@ TEST_F(VolumetricsTemporal, ColouredTransmittanceIsKept) {
         EXPECT_NEAR(now.at(3, 3)[c], 0.75F * from.at(3, 3)[c] + 0.25F * to.at(3, 3)[c], 1e-3) << c;
 }
 
+TEST_F(VolumetricsTemporal, AcceptanceIsGivenWhereItIsAskedFor) {
+    const Settings s = settings(Temporal::acceptance);
+    Picture of[2][2];  // asked, coloured
+    for (const bool asked : {false, true})
+        for (const bool coloured : {false, true}) {
+            asks_acceptance = asked;
+            host.global[0].sigma_a = {0.01F, 0.01F, coloured ? 0.04F : 0.01F};
+            host.view_depth = [](int, int) { return 10.0F; };
+            draw(s);
+            host.view_depth = [](int x, int) { return 10.0F + static_cast<float>(x); };
+            of[asked][coloured] = draw(s);
+            draw(without(s));
+        }
+    for (const bool coloured : {false, true}) {
+        EXPECT_TRUE(of[false][coloured].acceptance.pixels.empty());
+        EXPECT_EQ(of[false][coloured].scattering.pixels, of[true][coloured].scattering.pixels);
+        EXPECT_EQ(of[true][coloured].acceptance.pixels, of[true][false].acceptance.pixels);
+    }
+    EXPECT_EQ(of[true][false].acceptance.size, host.size);
+}
+
 TEST_F(VolumetricsTemporal, NotANumberIsGoneAfterOneFrame) {
     add_sun_behind_fence();
     for (const bool on : {false, true})

@@ -55,9 +55,10 @@ struct Inputs {
     float znear = 0.1f;  ///< m
     glm::ivec2 size{0};  ///< px, of `depth`
     TextureRef depth;    ///< D32F reversed-Z
-    /// RG16F, or empty: nothing moves but the camera. Of the surface seen: its place on the screen now less that in the frame before,
-    /// 0..1 of the picture; the camera's motion included, as projected without jitter. Beyond -1..1: it was not in the
-    /// picture. Not read where depth is 0, for there only the camera moves. Wanted where reads_motion() says so.
+    /// RG16F, or empty: nothing moves but the camera. Of the surface seen: its place on the screen now less that in
+    /// the frame before, 0..1 of the picture; the camera's motion included, as projected without jitter. Beyond
+    /// -1..1: it was not in the picture. Not read where depth is 0, for there only the camera moves. Wanted where
+    /// reads_motion() says so.
     TextureRef motion;
 
     std::vector<GlobalMedium> global;  ///< any number of homogeneous, at most 4 height media (Error otherwise)
@@ -73,6 +74,7 @@ struct Inputs {
     std::function<void()> bind_lighting;     ///< binds those; called inside each pass that lights the medium
 
     bool transparents = false;  ///< Outputs::fog is wanted, whatever the technique
+    bool acceptance = false;    ///< Outputs::acceptance is wanted
 
     std::uint32_t frame_index = 0;
     double time = 0;          ///< s

@@ -5,8 +5,8 @@
 namespace tyndall::volumetrics {
 
 /// Light and transmittance along all view rays, for what a host draws forward over the fogged picture with
-/// shaders/volumetrics/apply.glsl: a pass that includes it samples them (Volumetrics::sample_fog, bind_fog). Empty without
-/// a medium, and where neither the technique nor Inputs::transparents asked for it.
+/// shaders/volumetrics/apply.glsl: a pass that includes it samples them (Volumetrics::sample_fog, bind_fog). Empty
+/// without a medium, and where neither the technique nor Inputs::transparents asked for it.
 struct Fog {
     TextureRef columns;        ///< R32F: farthest view depth [m] in each column of froxels
     TextureRef radiance;       ///< RGBA16F volume
@@ -16,10 +16,12 @@ struct Fog {
 
 /// Pre-multiplied result: color = scattering + color * transmittance. Empty refs: nothing to apply.
 struct Outputs {
-    TextureRef scattering;     ///< RGBA16F: in-scattered and emitted radiance; a = mean transmittance
+    TextureRef scattering;     ///< RGBA16F (of the technique reference RGBA32F, as all it gives): in-scattered and
+                               ///< emitted radiance; a = mean transmittance
     TextureRef transmittance;  ///< RGBA16F, only when some medium's extinction is coloured; else scattering.a holds
                                ///< for all channels
-    TextureRef acceptance;     ///< R16F, of the setting temporal: share 0 … 1 of what was kept that each pixel took; empty without
+    TextureRef acceptance;  ///< R16F, where Inputs::acceptance asks for it and there is a mean over frames: share
+                            ///< 0 … 1 of what was kept that each pixel took
     Fog fog;
 };
 
@@ -27,7 +29,8 @@ struct Outputs {
 /// shaders/volumetrics/light_transmittance.glsl where `any` says so.
 struct LightTransmittance {
     bool any = false;
-    int light_volumes = 0;                ///< value of the define LIGHT_VOLUMES: 1 sun, 2 lamps, 3 both are attenuated by local media
+    /// Value of the define LIGHT_VOLUMES: 1 sun, 2 lamps, 3 both are attenuated by local media.
+    int light_volumes = 0;
     TextureRef sun_volume, lamp_volumes;  ///< sampled there, bound by Volumetrics::bind_uniforms
 };
 
