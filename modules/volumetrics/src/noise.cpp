@@ -86,19 +86,21 @@ glm::uvec4 noise_uniform(const Settings& settings, std::uint32_t frame_index) {
 }
 
 std::string noise_texture_name(const Settings& settings) {
-    constexpr const char* spaces[] = {"gaussian1", "box3", "box5", "binomial3", "binomial5"};
-    constexpr const char* times[] = {"ema", "box8"};
     constexpr const char* suffix = "_128x128x32_r8.raw";
     if (settings.noise == Noise::blue) return std::string("blue") + suffix;
     if (settings.noise == Noise::stbn) return std::string("stbn") + suffix;
     if (settings.noise != Noise::fast) return "";
-    return fmt::format("fast_{}_{}{}", times[static_cast<int>(settings.fast_time)],
-                       spaces[static_cast<int>(settings.fast_space)], suffix);
+    return fmt::format("fast_{}_{}{}", temporal_kernel_names()[static_cast<std::size_t>(settings.fast_time)],
+                       spatial_kernel_names()[static_cast<std::size_t>(settings.fast_space)], suffix);
+}
+
+bool samples_noise(Technique technique) {
+    return technique == Technique::ray_march || technique == Technique::billboards ||
+           technique == Technique::shaft_geometry || technique == Technique::radial_shafts;
 }
 
 void NoiseSource::prepare(const Settings& settings) {
-    const bool sampled =
-        settings.technique == Technique::ray_march || settings.technique == Technique::radial_shafts;
+    const bool sampled = samples_noise(settings.technique);
     const std::string texture = sampled ? noise_texture_name(settings) : "";
     const std::string name = sampled && is_tile(settings.noise)
                                  ? fmt::format("{} {}", static_cast<int>(settings.noise), settings.noise_size)

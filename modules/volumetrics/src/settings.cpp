@@ -87,12 +87,12 @@ const SettingsTable& settings_table() {
                      "128 px."},
                     {"fixed", "own", "golden_ratio", "r2"}, Effect::uniform)
             .choice(&S::fast_space, {"fast_space", "FAST in space", "Spatial filter that the noise fast was made for."},
-                    {"gaussian1", "box3", "box5", "binomial3", "binomial5"}, Effect::resource)
+                    spatial_kernel_names(), Effect::resource)
             .choice(&S::fast_time,
                     {"fast_time", "FAST in time",
                      "Temporal filter that the noise fast was made for: an exponential mean of weight 0.1, or the mean "
                      "of 8 frames."},
-                    {"ema", "box8"}, Effect::resource)
+                    temporal_kernel_names(), Effect::resource)
             .choice(&S::filter,
                     {"filter", "Filter",
                      "Spatial filter that takes noise away, in two passes: mean of 3 or 5 pixels each way, Gaussian of "
@@ -324,6 +324,16 @@ const std::vector<std::string>& technique_names() {
     static const std::vector<std::string> names{"off",          "ray_march",     "froxel",
                                                 "billboards",   "particles",     "shaft_geometry",
                                                 "analytic_fog", "radial_shafts", "reference"};
+    return names;
+}
+
+const std::vector<std::string>& spatial_kernel_names() {
+    static const std::vector<std::string> names{"gaussian1", "box3", "box5", "binomial3", "binomial5"};
+    return names;
+}
+
+const std::vector<std::string>& temporal_kernel_names() {
+    static const std::vector<std::string> names{"ema", "box8"};
     return names;
 }
 

@@ -110,7 +110,9 @@ inline constexpr std::array froxel_curve_settings{
 /// of the eight settings.
 [[nodiscard]] std::array<float, 17> froxel_curve(const Settings& settings);
 
-/// `--technique` names, in enum order.
+/// Names of a choice, in enum order.
 [[nodiscard]] const std::vector<std::string>& technique_names();
+[[nodiscard]] const std::vector<std::string>& spatial_kernel_names();
+[[nodiscard]] const std::vector<std::string>& temporal_kernel_names();
 
 }  // namespace tyndall::volumetrics
