@@ -14,18 +14,17 @@ const ProgramDesc visibility_program{.name = "volumetrics/radial_visibility",
                                      .valid = {}};
 const ProgramRegistry::Registration visibility_registration(visibility_program);
 
-const ProgramDesc program{.name = "volumetrics/radial_shafts",
-                          .stages = {{GL_VERTEX_SHADER, "shaders/volumetrics/march.vert"},
-                                     {GL_FRAGMENT_SHADER, "shaders/volumetrics/radial_shafts.frag"}},
-                          .axes = {{"HEIGHT_MEDIA", {0, 1, MAX_HEIGHT_MEDIA}},
-                                   {"CHROMATIC", {0, 1}},
-                                   {"COUNT_WORK", {0, 1}}},
-                          .valid = {}};
+const ProgramDesc program{
+    .name = "volumetrics/radial_shafts",
+    .stages = {{GL_VERTEX_SHADER, "shaders/volumetrics/march.vert"},
+               {GL_FRAGMENT_SHADER, "shaders/volumetrics/radial_shafts.frag"}},
+    .axes = {{"HEIGHT_MEDIA", {0, 1, MAX_HEIGHT_MEDIA}}, {"CHROMATIC", {0, 1}}, {"COUNT_WORK", {0, 1}}},
+    .valid = {}};
 const ProgramRegistry::Registration registration(program);
 
 /// R16F in `scattering`: the sun's share over each pixel's ray.
 Outputs add_visibility(PassList& passes, const PassResources& resources, const Inputs& inputs,
-                          const Settings& settings, const FrameMedia& media, TemporalHistory& history) {
+                       const Settings& settings, const FrameMedia& media, TemporalHistory& history) {
     Permutation permutation = fog_permutation(inputs, media);
     permutation["INTERVALS"] = settings.radial_occlusion == RadialOcclusion::intervals;
     const Inputs low = add_depth_downsample(passes, resources, inputs, settings);
@@ -41,14 +40,6 @@ Outputs add_visibility(PassList& passes, const PassResources& resources, const I
 
 Outputs add_radial_shafts(PassList& passes, PassResources& resources, const Inputs& inputs,
                           const Settings& settings, const FrameMedia& media, TemporalHistory& history) {
-    if (!inputs.has_sun) {
-        for (const char* name :
-             {"volumetrics/depth_downsample", "volumetrics/radial_visibility", "volumetrics/filter_horizontal",
-              "volumetrics/filter_vertical", "volumetrics/upsample", "volumetrics/temporal",
-              "volumetrics/radial_shafts"})
-            passes.skip(name, "no sun");
-        return add_analytic_fog(passes, resources, inputs, settings, media);
-    }
     passes.skip("volumetrics/analytic_fog", "there is a sun");
     const Outputs visibility = add_visibility(passes, resources, inputs, settings, media, history);
     const gl::Program& shader = resources.shaders.get(program, fog_permutation(inputs, media));

@@ -114,6 +114,14 @@ struct Volumetrics::Impl {
         return add_reconstruction(passes, resources, inputs, low, settings, marched, temporal_history);
     }
 
+    /// The sun of the fog is all that radial_shafts adds to.
+    Outputs add_radial_shafts_or_fog(PassList& passes, const Inputs& inputs, const Settings& settings) {
+        if (inputs.has_sun) return add_radial_shafts(passes, resources, inputs, settings, media, temporal_history);
+        for (const std::string_view name : passes_of().at(Technique::radial_shafts))
+            if (name != "volumetrics/analytic_fog") passes.skip(std::string(name), "no sun");
+        return add_analytic_fog(passes, resources, inputs, settings, media);
+    }
+
     Outputs add_technique(PassList& passes, const Inputs& inputs, const Settings& settings) {
         switch (settings.technique) {
             case Technique::off:
@@ -123,7 +131,8 @@ struct Volumetrics::Impl {
             case Technique::froxel: {
                 const FroxelMedia froxels = add_local_media(passes, inputs, settings);
                 const Inputs low = add_depth_downsample(passes, resources, inputs, settings);
-                const Outputs applied = add_froxel(passes, resources, inputs, low, settings, media, froxels, froxel_history);
+                const Outputs applied =
+                    add_froxel(passes, resources, inputs, low, settings, media, froxels, froxel_history);
                 Settings unfiltered = settings;  // there is no noise between pixels
                 unfiltered.filter = Filter::none;
                 Outputs outputs =
@@ -140,7 +149,7 @@ struct Volumetrics::Impl {
             case Technique::analytic_fog:
                 return add_analytic_fog(passes, resources, inputs, settings, media);
             case Technique::radial_shafts:
-                return add_radial_shafts(passes, resources, inputs, settings, media, temporal_history);
+                return add_radial_shafts_or_fog(passes, inputs, settings);
             case Technique::reference:
                 return add_reference(passes, resources, inputs, settings, media);
         }
@@ -235,8 +244,7 @@ void Volumetrics::bind_uniforms() const {
 std::size_t Volumetrics::persistent_bytes() const {
     const PassResources& r = impl_->resources;
     return r.uniforms.size() + r.local_media.size() + r.media_tiles.size() + r.noise.bytes() + r.sprites.size() +
-           impl_->froxel_history.bytes() + impl_->temporal_history.bytes() +
-           r.light_volumes.bytes();
+           impl_->froxel_history.bytes() + impl_->temporal_history.bytes() + r.light_volumes.bytes();
 }
 
 }  // namespace tyndall::volumetrics
