@@ -14,8 +14,8 @@ struct FlythroughOptions {
 
 /// Draws the level's "flythrough" animation in fixed steps and writes into `out`: frames.csv (milliseconds per
 /// frame and pass), summary.csv and summary.md (the frame breakdown of the ray-marching thesis, table 4.3: total,
-/// march, filter, composite; mean, standard deviation, variance), and a still PLACE.png per place of the path (all of
-/// them, however short `duration`). Throws Error when the scene has no such animation.
+/// march, filter, composite; mean, standard deviation, variance), and a still PLACE.png per place of the path (all
+/// of them, however short `duration`). Throws Error when the scene has no such animation.
 void fly_through(Session& session, const FlythroughOptions& options);
 
 }  // namespace tyndall

@@ -73,8 +73,9 @@ struct Node {
     std::vector<int> meshes;
     int light = -1, camera = -1;
     bool cast_shadow = true;  ///< extras.cast_shadow
-    float draw_distance = 0;  ///< m, extras.draw_distance: its transparent parts are left out farther away; 0: never
-    bool dynamic = false;     ///< it or an ancestor is animated
+    /// m, extras.draw_distance: its transparent parts are left out farther away; 0: never.
+    float draw_distance = 0;
+    bool dynamic = false;  ///< it or an ancestor is animated
     glm::mat4 world{1};
 };
 
@@ -129,7 +130,7 @@ struct Scene {
     std::vector<Light> lights;
     std::vector<Camera> cameras;
     std::vector<Animation> animations;
-    std::vector<Medium> media;  ///< scene extras.media
+    std::vector<Medium> media;              ///< scene extras.media
     std::vector<ParticleEmitter> emitters;  ///< node extras.particles
     float exposure_ev100 =
         0;        ///< scene extras.exposure, or what suits its sun: a luminance of 1.2 * 2^EV shows as 1

@@ -111,9 +111,10 @@ void add_compare_command(CLI::App& app) {
         "--threshold", options->threshold,
         "write B with differences over 10/255 in red; radiance is shown sRGB encoded, white where 99 % of "
         "B's values lie below");
-    command->add_option("--edges", options->edges,
-                        "view depth (`render --layer depth`): relrmse also of the pixels within 3 px of depth edges "
-                        "(edges), and of all others (elsewhere)");
+    command->add_option(
+        "--edges", options->edges,
+        "view depth (`render --layer depth`): relrmse also of the pixels within 3 px of depth edges "
+        "(edges), and of all others (elsewhere)");
     command->add_flag("--json", options->json, "one JSON object; a value that is not finite is null");
     command->callback([options] { run(*options); });
 }

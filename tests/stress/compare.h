@@ -13,8 +13,8 @@ struct Comparison {
 };
 
 /// Compares some pixels of a frame that is marked comparable with the CPU's ground truth. Such a frame has no
-/// shadow maps, no local media, no filter, no history, full resolution, 8 to 128 steps, segment integration of lamps, extinctions of 1e-4 to 0.9
-/// /m, |g| up to 0.6, lamps within 25 m whose range ends before the march does.
+/// shadow maps, no local media, no filter, no history, full resolution, 8 to 128 steps, segment integration of
+/// lamps, extinctions of 1e-4 to 0.9 /m, |g| up to 0.6, lamps within 25 m whose range ends before the march does.
 ///
 /// Bounds, for an error |gpu - truth|:
 ///     transmittance   1e-3 + 1e-3 truth

@@ -123,7 +123,7 @@ TEST_F(Commands, RenderWritesStatistics) {
     EXPECT_EQ(read_image(path("out.png")).size, glm::ivec2(64, 36));
     const json stats = json::parse(read(path("stats.json")));
     EXPECT_EQ(stats.at("size"), json({64, 36}));
-    EXPECT_EQ(stats.at("settings").at("steps"), 4);        // of the preset
+    EXPECT_EQ(stats.at("settings").at("steps"), 4);       // of the preset
     EXPECT_EQ(stats.at("settings").at("noise_size"), 4);  // --set comes after the preset
     EXPECT_EQ(stats.at("facts").at("has_sun"), true);
     EXPECT_EQ(stats.at("facts").at("has_global_medium"), true);

@@ -52,7 +52,8 @@ struct Checker {
     }
 
     void names() {
-        for (const char* name : {"LocalPM", "Close", "LocalLights", "Sun", "Depth", "Balance", "Glass", "flythrough"}) {
+        for (const char* name :
+             {"LocalPM", "Close", "LocalLights", "Sun", "Depth", "Balance", "Glass", "flythrough"}) {
             const Node* n = node(name);
             expect(n && n->camera >= 0 && level.cameras[static_cast<size_t>(n->camera)].name == name,
                    std::string("camera missing: ") + name);

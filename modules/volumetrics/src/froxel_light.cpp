@@ -6,8 +6,7 @@ namespace tyndall::volumetrics {
 namespace {
 
 bool is_permutation(const Permutation& p) {
-    return is_light_volume_permutation(p) &&
-           (p.at("FROXEL_HISTORY") == 0 || p.at("HAS_SUN") + p.at("LAMPS") > 0);
+    return is_light_volume_permutation(p) && (p.at("FROXEL_HISTORY") == 0 || p.at("HAS_SUN") + p.at("LAMPS") > 0);
 }
 
 const ProgramDesc program{.name = "volumetrics/froxel_light",
@@ -42,15 +41,14 @@ FroxelLight add_froxel_light(PassList& passes, const PassResources& resources, c
     }
     const bool local = !media.local.empty();
     const int lamps = 1 + static_cast<int>(settings.lamp_integration);
-    const gl::Program& shader =
-        resources.shaders.get(program, {{"HEIGHT_MEDIA", height_media_axis(media)},
-                                        {"LOCAL_MEDIA", local},
-                                        {"HAS_SUN", inputs.has_sun},
-                                        {"LAMPS", inputs.has_lamps ? lamps : 0},
-                                        {"CHROMATIC", media.chromatic},
-                                        {"FROXEL_HISTORY", history != nullptr},
-                                        {"LIGHT_VOLUMES", resources.light_volumes.axis()},
-                                        {"COUNT_WORK", inputs.count_work}});
+    const gl::Program& shader = resources.shaders.get(program, {{"HEIGHT_MEDIA", height_media_axis(media)},
+                                                                {"LOCAL_MEDIA", local},
+                                                                {"HAS_SUN", inputs.has_sun},
+                                                                {"LAMPS", inputs.has_lamps ? lamps : 0},
+                                                                {"CHROMATIC", media.chromatic},
+                                                                {"FROXEL_HISTORY", history != nullptr},
+                                                                {"LIGHT_VOLUMES", resources.light_volumes.axis()},
+                                                                {"COUNT_WORK", inputs.count_work}});
     const bool lit = inputs.has_sun || inputs.has_lamps || inputs.has_ambient;
     passes.add(
         "volumetrics/froxel_light",

@@ -121,8 +121,8 @@ void add_all_local(const Inputs& inputs, const FroxelGrid& froxels, FrameMedia& 
     media.local_froxels.clear();
 }
 
-/// Whatever the view: what dims the light of a place in view may be out of it, and volumes of all media outlast a turn of
-/// the camera.
+/// Whatever the view: what dims the light of a place in view may be out of it, and volumes of all media outlast a
+/// turn of the camera.
 void add_attenuating(const Inputs& inputs, FrameMedia& media) {
     for (const LocalMedium& medium : inputs.local) {
         if (is_zero(medium.sigma_s + medium.sigma_a) || is_empty(medium)) continue;

@@ -25,8 +25,9 @@ struct AttenuatingMedium {
 struct FrameMedia {
     shared::VolumetricsData data{};
     std::vector<shared::LocalMedium> local;
-    std::vector<IndexBox> local_froxels;  ///< that each local medium may touch; none for the reference without transparents
-    std::size_t live_tiles = 0;           ///< of the froxel volume: entries of live_tiles()
+    /// That each local medium may touch; none for the reference without transparents.
+    std::vector<IndexBox> local_froxels;
+    std::size_t live_tiles = 0;                  ///< of the froxel volume: entries of live_tiles()
     std::vector<AttenuatingMedium> attenuating;  ///< none where light_transmittance is off or no sun or lamp shines
     bool has_global = false;
     bool local_emission = false;

@@ -70,8 +70,8 @@ class StubHost {
     int slices = 1;
     float slice_depth = 1;
     std::function<bool(int light, int slice)> listed = [](int, int) { return true; };
-    /// 0: nothing casts a shadow. 1: a fence in the plane y = 4 shadows the sun, one around each lamp the lamp. 2: the
-    /// half x < 0 of the plane z = -6 shadows lamps. 3: the half x < 0 of the plane y = 4 shadows the sun.
+    /// 0: nothing casts a shadow. 1: a fence in the plane y = 4 shadows the sun, one around each lamp the lamp. 2:
+    /// the half x < 0 of the plane z = -6 shadows lamps. 3: the half x < 0 of the plane y = 4 shadows the sun.
     int shadows = 0;
     std::uint32_t frame_index = 0;
     bool count_work = false;

@@ -30,7 +30,8 @@ class VolumetricsClosedForm : public VolumetricsMarch, public testing::WithParam
     }
 };
 INSTANTIATE_TEST_SUITE_P(Techniques, VolumetricsClosedForm,
-                         testing::Values(Technique::ray_march, Technique::froxel, Technique::analytic_fog), [](const auto& info) {
+                         testing::Values(Technique::ray_march, Technique::froxel, Technique::analytic_fog),
+                         [](const auto& info) {
                              return volumetrics::technique_names().at(static_cast<std::size_t>(info.param));
                          });
 

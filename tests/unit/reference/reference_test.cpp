@@ -123,7 +123,8 @@ TEST(Reference, SunInAirAndHaze) {
         Settings two = World::exact();
         two.phase = {ParticlePhase::Kind::double_henyey_greenstein, -0.5, 0.2};
         const double lobes = 0.8 * phase(0.6f, cosine) + 0.2 * phase(-0.5, cosine);
-        expect_close(w.trace(dvec3(0), d, two).scattering, sun_lux * (air * air_phase + haze * lobes) * share, 1e-6);
+        expect_close(w.trace(dvec3(0), d, two).scattering, sun_lux * (air * air_phase + haze * lobes) * share,
+                     1e-6);
     }
 }
 
@@ -342,7 +343,8 @@ TEST(Reference, ErrorEstimateHolds) {
         for (const double tolerance : {1e-2, 1e-3, 1e-4}) {
             const Reference::Ray ray =
                 w.trace(dvec3(0), d, {.ambient = 0, .black_surfaces = true, .tolerance = tolerance});
-            EXPECT_LE(std::abs(ray.scattering.x - best.x), ray.error + 1e-5 * best.x) << slope << " " << tolerance << " of " << best.x;
+            EXPECT_LE(std::abs(ray.scattering.x - best.x), ray.error + 1e-5 * best.x)
+                << slope << " " << tolerance << " of " << best.x;
             EXPECT_LE(ray.error, tolerance * best.x);
         }
     }

@@ -74,7 +74,8 @@ TEST(Medium, Defaults) {
 }
 
 TEST(Medium, AirHasRayleighsPhase) {
-    const json air{{"shape", "height"}, {"scattering", {1, 2, 3}}, {"base", 0}, {"falloff", 8000}, {"phase", "rayleigh"}};
+    const json air{
+        {"shape", "height"}, {"scattering", {1, 2, 3}}, {"base", 0}, {"falloff", 8000}, {"phase", "rayleigh"}};
     EXPECT_TRUE(parse_one(air).rayleigh);
     json haze{{"shape", "global"}, {"scattering", {1, 2, 3}}, {"anisotropy", 0.5}};
     EXPECT_FALSE(parse_one(haze).rayleigh);
@@ -121,7 +122,8 @@ TEST(Medium, EveryMistakeNamesFileIndexAndKey) {
         {with(ball(), "anisotropy", -1), ".anisotropy"},
         {with(ball(), "anisotropy", true), ".anisotropy"},
         {with(ball(), "phase", "rayleigh"), ".phase: only the shapes global and height"},
-        {{{"shape", "global"}, {"scattering", {1, 1, 1}}, {"phase", "air"}}, ".phase: \"air\" given, one of mie, rayleigh"},
+        {{{"shape", "global"}, {"scattering", {1, 1, 1}}, {"phase", "air"}},
+         ".phase: \"air\" given, one of mie, rayleigh"},
         {{{"shape", "global"}, {"scattering", {1, 1, 1}}, {"phase", 1}}, ".phase"},
         {{{"shape", "global"}, {"scattering", {1, 1, 1}}, {"phase", "rayleigh"}, {"anisotropy", 0.5}},
          ".phase: rayleigh has no anisotropy"},

@@ -7,8 +7,8 @@
 #include <random>
 
 #include "engine/core/error.h"
-#include "modules/volumetrics/src/noise.h"
 #include "modules/volumetrics/src/froxel_tiles.h"
+#include "modules/volumetrics/src/noise.h"
 
 namespace tyndall::volumetrics {
 namespace {

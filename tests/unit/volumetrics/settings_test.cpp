@@ -49,8 +49,8 @@ TEST(VolumetricsSettings, ValuesOutOfRangeAreRefused) {
     Settings settings;
     SettingsSet set;
     set.add(settings_table(), &settings);
-    for (const char* assignment : {"steps=0", "steps=1025", "noise_size=3", "filter_sigma=0", "technique=froxels", "phase=rayleigh",
-                                   "phase_back_anisotropy=0.1", "phase_back_weight=1.1"})
+    for (const char* assignment : {"steps=0", "steps=1025", "noise_size=3", "filter_sigma=0", "technique=froxels",
+                                   "phase=rayleigh", "phase_back_anisotropy=0.1", "phase_back_weight=1.1"})
         EXPECT_THROW(set.set(assignment), UsageError) << assignment;
 }
 
