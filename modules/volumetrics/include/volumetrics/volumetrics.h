@@ -11,6 +11,7 @@ namespace tyndall::volumetrics {
 
 /// Light in participating media for an OpenGL 4.5 renderer. One object per view.
 ///
+///     volumetrics.prepare(inputs, settings);
 ///     Outputs out = volumetrics.add_passes(passes, inputs, settings);
 ///     color = volumetrics.composite(passes, out, color);
 ///
@@ -23,23 +24,24 @@ class Volumetrics {
     Volumetrics(const Volumetrics&) = delete;
     Volumetrics& operator=(const Volumetrics&) = delete;
 
-    /// Adds the passes that find out how much light local media leave on its way: before add_passes and before the host's
-    /// lighting pass, which samples the volumes. A host that does not attenuate the light of surfaces need not call it:
-    /// add_passes then does.
+    /// Adds the passes that find out how much light local media leave on its way: before add_passes and before the
+    /// host's lighting pass, which samples the volumes. A host that does not attenuate the light of surfaces need
+    /// not call it: add_passes then does.
     LightTransmittance add_light_passes(PassList& passes, const Inputs& inputs, const Settings& settings);
     /// Throws Error for more height media than the uniform block holds.
     [[nodiscard]] Outputs add_passes(PassList& passes, const Inputs& inputs, const Settings& settings);
-    /// Blends the result over `color` (RGBA16F, linear radiance); returns its new version (the same ref when there
-    /// is nothing to apply).
+    /// Applies the result to `color` (RGBA16F, linear radiance), in place; returns its new version (the same ref
+    /// when there is nothing to apply).
     [[nodiscard]] TextureRef composite(PassList& passes, const Outputs& outputs, TextureRef color);
 
-    /// Declares what shaders/volumetrics/apply.glsl samples, in a host's pass that draws with it over the composite.
+    /// Declares what shaders/volumetrics/apply.glsl samples, in a host's pass that draws with it over the
+    /// composite.
     static void sample_fog(PassBuilder& builder, const Fog& fog);
     /// Binds it, and the uniform block, while that pass runs. The host's lights are bound as in its lighting pass.
     void bind_fog(const PassContext& context, const Fog& fog) const;
 
-    /// Binds the uniform block at BINDING_VOLUMETRICS and the light volumes of add_light_passes, for host shaders that
-    /// attenuate surface light with shaders/volumetrics/light_transmittance.glsl. Valid from `prepare` on.
+    /// Binds the uniform block at BINDING_VOLUMETRICS and the light volumes of add_light_passes, for host shaders
+    /// that attenuate surface light with shaders/volumetrics/light_transmittance.glsl. Valid from `prepare` on.
     void bind_uniforms() const;
     /// Uploads this frame's uniforms and media; called before add_passes, and before the host's lighting pass runs.
     void prepare(const Inputs& inputs, const Settings& settings);
