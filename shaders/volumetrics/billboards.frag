@@ -3,7 +3,7 @@
 // blended from the far to the near one: dst = radiance + dst * transmittance.
 // Global media are sheets over the whole screen, and behind the last one a horizon in closed form. Local media are sheets
 // over their own part of it; the optical depth is that of the chord in the shape, as of spherical billboards (Umenhoffer
-// et al. 2006), by the density in the chord's middle. Soft against depth: the slab ends at the surface, so a sheet has the
+// et al. 2006), by the density at a point of the chord. Soft against depth: the slab ends at the surface, so a sheet has the
 // share of its medium that lies in front. Faded near the eye: density falls to 0 over the last `fade` metres.
 //
 // What it cannot do: light is that of one point of the sheet, so the edge of a shadow or of a lamp's glow is a step from
@@ -12,6 +12,7 @@
 #include "shaders/interface/shadows.glsl"
 #include "shaders/shared/sprites.h"
 #include "shaders/volumetrics/lamps.glsl"
+#include "shaders/volumetrics/noise_offset.glsl"
 #include "shaders/volumetrics/segment.glsl"
 #include "shaders/volumetrics/local_media.glsl"
 
@@ -53,11 +54,11 @@ Medium sheet_medium(Ray ray, vec2 part, vec3 point) {
     return global_medium(ray.origin.y + ray.direction.y * part.x, ray.direction.y, path_length);
 }
 
-March sheet(Ray ray, vec2 part) {
-    float t = 0.5 * (part.x + part.y);
+March sheet(Ray ray, vec2 part, float offset) {
+    float t = mix(part.x, part.y, offset);
     vec3 point = ray.origin + ray.direction * t;
     Medium m = sheet_medium(ray, part, point);
-    float share = fade > 0.0 ? clamp(t / fade, 0.0, 1.0) : 1.0;
+    float share = fade > 0.0 ? clamp(0.5 * (part.x + part.y) / fade, 0.0, 1.0) : 1.0;
     m.optical_depth *= share;
     Optics optics = medium_optics(m, part.y - part.x);
     Extinction path = share * optics.effective_length;
@@ -89,7 +90,7 @@ March horizon(Ray ray, float begin, float surface, bool endless) {
 }
 
 void main() {
-    Ray ray = view_ray(gl_FragCoord.xy * volumetrics.viewport.zw);
+    Ray ray = view_ray(screen_place(gl_FragCoord.xy));
     float depth = texelFetch(depth_texture, ivec2(gl_FragCoord.xy), 0).r;
     count_work(WORK_TEXTURE_FETCHES, 1u);
     float surface = ray_distance_from_view_depth(view_depth_from_buffer(depth, volumetrics.eye.w), ray.forward_cosine);
@@ -99,7 +100,7 @@ void main() {
         if (int(slab.z) == BILLBOARD_HORIZON)
             march = horizon(ray, part.x, surface, is_background(depth));
         else
-            march = sheet(ray, part);
+            march = sheet(ray, part, noise_offset(uvec2(gl_FragCoord.xy)));
     }
 #if CHROMATIC
     out_red = vec4(march.radiance.r, 0.0, 0.0, march.transmittance.r);

@@ -2,7 +2,7 @@
 // that is hidden the whole slab is.
 #include "shaders/interface/lights.glsl"
 #include "shaders/shared/sprites.h"
-#include "shaders/volumetrics/data.glsl"
+#include "shaders/volumetrics/ray.glsl"
 
 layout(std430, binding = BINDING_SPRITES) readonly buffer BillboardBuffer { Billboard billboards[]; };
 
@@ -13,7 +13,7 @@ void main() {
     Billboard billboard = billboards[gl_InstanceID];
     vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1);
     float near = volumetrics.eye.w;
-    gl_Position = vec4(mix(billboard.rect.xy, billboard.rect.zw, corner), near / max(billboard.slab.x, near), 1.0);
+    gl_Position = target_clip(vec4(mix(billboard.rect.xy, billboard.rect.zw, corner), near / max(billboard.slab.x, near), 1.0));
     ambient = volumetrics.options.z != 0u ? ambient_radiance() : vec3(0.0);
     slab = billboard.slab.xyz;
 }

@@ -23,7 +23,7 @@ layout(location = GLOBAL_MEDIA + 1) out vec4 out_depth;
 #endif
 
 void main() {
-    Ray ray = view_ray(gl_FragCoord.xy * volumetrics.viewport.zw);
+    Ray ray = view_ray(screen_place(gl_FragCoord.xy));
     float depth = texelFetch(depth_texture, ivec2(gl_FragCoord.xy), 0).r;
     count_work(WORK_TEXTURE_FETCHES, 1u);
     float surface = ray_distance_from_view_depth(view_depth_from_buffer(depth, volumetrics.eye.w), ray.forward_cosine);

@@ -2,6 +2,7 @@
 // screen where the eye is in the sphere or close to it. Its depth is that of its front.
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/sprites.h"
+#include "shaders/volumetrics/ray.glsl"
 
 layout(std430, binding = BINDING_SPRITES) readonly buffer ParticleBuffer { Particle particles[]; };
 
@@ -33,7 +34,8 @@ void main() {
     vec3 right = normalize(cross(forward, abs(forward.y) < 0.9 ? vec3(0.0, 1.0, 0.0) : vec3(1.0, 0.0, 0.0)));
     vec3 up = cross(right, forward);
     float tangent = radius / sqrt((distance - radius) * (distance + radius));
-    vec4 clip = view_projection * vec4(center + (right * corner.x + up * corner.y) * (distance * tangent), 1.0);
+    vec3 place = center + (right * corner.x + up * corner.y) * (distance * tangent);
+    vec4 clip = target_clip(view_projection * vec4(place, 1.0));
     float front = (view_projection * vec4(center, 1.0)).w - radius;
     gl_Position = vec4(clip.xy, clip.w * (near / max(front, near)), clip.w);
 }

@@ -46,7 +46,7 @@ void add_global_media(Ray ray, float depth, Extinction local_depth, inout March 
 }
 
 void main() {
-    Ray ray = view_ray(gl_FragCoord.xy * volumetrics.viewport.zw);
+    Ray ray = view_ray(screen_place(gl_FragCoord.xy));
     float depth = texelFetch(depth_texture, ivec2(gl_FragCoord.xy), 0).r;
     March march = March(vec3(0.0), Extinction(1.0));
     Extinction local_depth = Extinction(0.0);

@@ -10,7 +10,7 @@ layout(binding = 1) uniform sampler2D depth_texture;
 layout(location = 0) out vec4 out_light;
 
 void main() {
-    Ray ray = view_ray(gl_FragCoord.xy * volumetrics.viewport.zw);
+    Ray ray = view_ray(screen_place(gl_FragCoord.xy));
     float depth = texelFetch(depth_texture, ivec2(gl_FragCoord.xy), 0).r;
     count_work(WORK_TEXTURE_FETCHES, 1u);
     float face = 1.0 / max(gl_FragCoord.w, 1.0 / MAX_VIEW_DEPTH);

@@ -2,7 +2,7 @@
 
 #include "engine/gl/state.h"
 #include "engine/gl/vertex_array.h"
-#include "passes.h"
+#include "reconstruction.h"
 #include "shaders/lib/glm_subset.h"
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/sprites.h"
@@ -104,6 +104,7 @@ Layers add_draw(PassList& passes, const PassResources& resources, const Inputs& 
                                                                 {"CHROMATIC", media.chromatic},
                                                                 {"COUNT_WORK", inputs.count_work}});
     const bool lit = inputs.has_sun || inputs.has_lamps || inputs.has_ambient;
+    const bool hides = is_depth_buffer(passes, inputs);
     passes.add(
         "volumetrics/billboards",
         [&](PassBuilder& builder) {
@@ -114,17 +115,18 @@ Layers add_draw(PassList& passes, const PassResources& resources, const Inputs& 
             }
             resources.light_volumes.sample(builder);
             for (TextureRef& layer : layers) layer = builder.attach_color(layer);
-            builder.attach_depth_read_only(inputs.depth);
+            if (hides) builder.attach_depth_read_only(inputs.depth);
         },
-        [depth = inputs.depth, targets = static_cast<GLint>(layers.size()), count,
+        [hides, depth = inputs.depth, targets = static_cast<GLint>(layers.size()), count,
          bind_lighting = lit ? inputs.bind_lighting : nullptr, fade = settings.billboard_fade, &shader,
          &resources](const PassContext& context) {
-            gl::apply({.depth_test = true, .blend = gl::Blend::premultiplied});
+            gl::apply({.depth_test = hides, .blend = gl::Blend::premultiplied});
             context.bind_framebuffer();
             const glm::vec4 nothing{0, 0, 0, 1};
             for (GLint target = 0; target < targets; ++target) glClearBufferfv(GL_COLOR, target, &nothing.x);
             if (bind_lighting) bind_lighting();
             resources.light_volumes.bind();
+            resources.noise.bind();
             const BoundTextures bound{{context.texture(depth), resources.nearest}};
             resources.uniforms.bind(GL_UNIFORM_BUFFER, BINDING_VOLUMETRICS);
             resources.sprites.bind(GL_SHADER_STORAGE_BUFFER, BINDING_SPRITES);

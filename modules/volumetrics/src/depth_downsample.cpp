@@ -14,6 +14,10 @@ const ProgramRegistry::Registration registration(program);
 
 }  // namespace
 
+bool is_depth_buffer(const PassList& passes, const Inputs& inputs) {
+    return passes.desc(inputs.depth).format == GL_DEPTH_COMPONENT32F;
+}
+
 Inputs add_depth_downsample(PassList& passes, const PassResources& resources, const Inputs& inputs,
                             const Settings& settings) {
     const int factor = resolution_factor(settings);

@@ -1,7 +1,7 @@
 #include "engine/gl/state.h"
 #include "engine/gl/vertex_array.h"
 #include "particle_batches.h"
-#include "passes.h"
+#include "reconstruction.h"
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/sprites.h"
 
@@ -107,6 +107,7 @@ Sums add_draw(PassList& passes, const PassResources& resources, const Inputs& in
               BufferRef particles, GLsizei count) {
     const gl::TextureDesc desc{.format = GL_RGBA32F, .size = {inputs.size, 1}};
     const bool local = !media.local.empty();
+    const bool hides = is_depth_buffer(passes, inputs);
     Sums sums;
     if (media.has_global) sums.global = passes.create("volumetrics/particles_global", desc);
     if (local) sums.local = passes.create("volumetrics/particles_local", desc);
@@ -121,11 +122,11 @@ Sums add_draw(PassList& passes, const PassResources& resources, const Inputs& in
             builder.read(particles);
             for (TextureRef* sum : {&sums.global, &sums.local, &sums.local_depth})
                 if (*sum) *sum = builder.attach_color(*sum);
-            builder.attach_depth_read_only(inputs.depth);
+            if (hides) builder.attach_depth_read_only(inputs.depth);
         },
-        [depth = inputs.depth, targets = static_cast<int>(media.has_global) + 2 * static_cast<int>(local), count,
+        [hides, depth = inputs.depth, targets = static_cast<int>(media.has_global) + 2 * static_cast<int>(local), count,
          matrix = view_projection(inputs), near = inputs.znear, &shader, &resources](const PassContext& context) {
-            gl::apply({.depth_test = true, .blend = gl::Blend::add});
+            gl::apply({.depth_test = hides, .blend = gl::Blend::add});
             context.bind_framebuffer();
             const glm::vec4 nothing{0};
             for (GLint target = 0; target < targets; ++target) glClearBufferfv(GL_COLOR, target, &nothing.x);

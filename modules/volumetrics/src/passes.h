@@ -14,6 +14,7 @@ namespace tyndall::volumetrics {
 struct FroxelMedia {
     TextureRef columns;  ///< farthest view depth of each column, see froxel_columns.frag: nothing is injected behind it
     TextureRef scattering, extinction, emission;  ///< emission only where some local medium emits
+    TextureRef slices;  ///< R32UI: which slices of each column hold media, see froxel_slices.glsl; for reconstruct = visibility
 };
 
 class FroxelHistory;
@@ -46,10 +47,12 @@ struct PassResources {
                                      const Settings& settings, const FrameMedia& media);
 [[nodiscard]] Outputs add_particles(PassList& passes, PassResources& resources, const Inputs& inputs,
                                     const Settings& settings, const FrameMedia& media);
-[[nodiscard]] Outputs add_shaft_geometry(PassList& passes, PassResources& resources, const Inputs& inputs,
-                                         const Settings& settings, const FrameMedia& media);
+/// There is a global medium.
+[[nodiscard]] MarchedLight add_shaft_geometry(PassList& passes, PassResources& resources, const Inputs& inputs,
+                                              const Settings& settings, const FrameMedia& media);
 [[nodiscard]] Outputs add_analytic_fog(PassList& passes, PassResources& resources, const Inputs& inputs,
                                        const Settings& settings, const FrameMedia& media);
+/// There is a sun.
 [[nodiscard]] Outputs add_radial_shafts(PassList& passes, PassResources& resources, const Inputs& inputs,
                                         const Settings& settings, const FrameMedia& media, TemporalHistory& history);
 /// Value of the axis HEIGHT_MEDIA.

@@ -4,9 +4,19 @@
 #include "temporal.h"
 
 namespace tyndall::volumetrics {
+namespace {
+
+constexpr const char* not_sampled = "pixels sample nothing";
+
+/// Of shaft_geometry it is the shadows of lamps.
+bool is_sampled(const Settings& settings, const Inputs& inputs) {
+    return settings.technique != Technique::shaft_geometry || inputs.has_lamps;
+}
+
+}  // namespace
 
 bool can_be_reconstructed(Technique technique) {
-    return technique == Technique::ray_march || technique == Technique::froxel || technique == Technique::radial_shafts;
+    return samples_noise(technique) || technique == Technique::froxel || technique == Technique::particles;
 }
 
 bool reads_motion(const Settings& settings) {
@@ -26,9 +36,11 @@ Outputs add_reconstruction(PassList& passes, const PassResources& resources, con
 Outputs add_reconstruction(PassList& passes, const PassResources& resources, const Inputs& inputs, const Inputs& low,
                            const Settings& settings, const MarchedLight& marched, TemporalHistory& history) {
     Outputs result = noisy_part(marched);
-    const bool temporal = settings.temporal != Temporal::off;
+    const bool sampled = is_sampled(settings, inputs);
+    const bool temporal = settings.temporal != Temporal::off && sampled;
     const bool before = temporal && settings.temporal_place == TemporalPlace::before;
-    if (!temporal) passes.skip("volumetrics/temporal", "temporal is off");
+    if (!temporal)
+        passes.skip("volumetrics/temporal", settings.temporal == Temporal::off ? "temporal is off" : not_sampled);
     TextureRef frames;
     if (before) {
         const TemporalMean mean = add_temporal(passes, resources, low, settings, result, history);
@@ -36,11 +48,11 @@ Outputs add_reconstruction(PassList& passes, const PassResources& resources, con
         if (settings.filter_narrows && settings.temporal == Temporal::accumulate) frames = mean.frames;
     }
     const TextureRef acceptance = result.acceptance;
-    if (settings.filter != Filter::none)
+    if (settings.filter != Filter::none && sampled && samples_noise(settings.technique))
         result = add_filter(passes, resources, low, settings, result, frames);
     else
         for (const char* name : {"volumetrics/filter_horizontal", "volumetrics/filter_vertical"})
-            passes.skip(name, "filter is none");
+            passes.skip(name, settings.filter == Filter::none ? "filter is none" : not_sampled);
     if (marched.sun || marched.lamps) result = add_relight(passes, resources, marched, result, low.count_work);
     if (settings.resolution != Resolution::full)
         result = add_upsample(passes, resources, inputs, low, settings, result);

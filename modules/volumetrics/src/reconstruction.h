@@ -11,6 +11,8 @@ struct MarchedLight;
 /// resolution these are the host's.
 [[nodiscard]] Inputs add_depth_downsample(PassList& passes, const PassResources& resources, const Inputs& inputs,
                                           const Settings& settings);
+/// `inputs` are those of full resolution: their depth can hide what is drawn.
+[[nodiscard]] bool is_depth_buffer(const PassList& passes, const Inputs& inputs);
 /// The technique's samples are reconstructed.
 [[nodiscard]] bool can_be_reconstructed(Technique technique);
 /// Pixels of the host along each side of one pixel of that: 1, 2 or 4.
@@ -18,6 +20,7 @@ struct MarchedLight;
 
 /// Between samples and picture, each where settings ask for it:
 ///     temporal (before) -> spatial filter -> relight -> up-sampling -> temporal (after)
+/// The filter only where the technique's pixels sample at noise.
 /// `sampled` is of the size of `low` (add_depth_downsample); the result is of the host's. Every texture of `sampled`
 /// goes the same way.
 [[nodiscard]] Outputs add_reconstruction(PassList& passes, const PassResources& resources, const Inputs& inputs,
@@ -37,7 +40,7 @@ struct MarchedLight;
 [[nodiscard]] Outputs add_upsample(PassList& passes, const PassResources& resources, const Inputs& inputs,
                                    const Inputs& low, const Settings& settings, const Outputs& source);
 struct TemporalMean {
-    Outputs light;      ///< Outputs::acceptance is set
+    Outputs light;      ///< with Outputs::acceptance
     TextureRef frames;  ///< float, y: frames in the mean, 1 … 256
 };
 /// The mean over frames at the resolution of `at`, settings.temporal is not off.

@@ -5,6 +5,7 @@
 #include "engine/gl/state.h"
 #include "engine/gl/vertex_array.h"
 #include "froxel_passes.h"
+#include "relight.h"
 #include "shaders/shared/bindings.h"
 
 // Sunlight as geometry: a mesh of the volume that the sun does not reach, whose faces are blended with the closed
@@ -37,8 +38,11 @@ const ProgramDesc resolve_program{.name = "volumetrics/shaft_resolve",
                                            {"HAS_SUN", {0, 1}},
                                            {"LAMPS", {0, 2}},
                                            {"CHROMATIC", {0, 1}},
+                                           {"VISIBILITY", {0, 1}},  // of lamps, apart
                                            {"COUNT_WORK", {0, 1}}},
-                                  .valid = {}};
+                                  .valid = [](const Permutation& p) {
+                                      return p.at("VISIBILITY") == 0 || p.at("LAMPS") != 0;
+                                  }};
 const ProgramRegistry::Registration resolve_registration(resolve_program);
 
 void read_lighting(PassBuilder& builder, const Inputs& inputs) {
@@ -125,16 +129,31 @@ TextureRef add_faces(PassList& passes, const PassResources& resources, const Inp
     return light;
 }
 
-Outputs add_resolve(PassList& passes, const PassResources& resources, const Inputs& inputs,
-                    const Settings& settings, const FrameMedia& media, TextureRef face_light) {
+/// Why the lamps' visibility, all that has noise, is not filtered apart; null where it is.
+const char* reason_for_whole(const Inputs& inputs, const Settings& settings) {
+    const bool temporal = settings.temporal != Temporal::off && settings.temporal_place == TemporalPlace::before;
+    if (!inputs.has_lamps) return "no lamps";
+    if (settings.reconstruct == Reconstruct::light) return "reconstruct is light";
+    return settings.filter == Filter::none && !temporal ? "nothing filters visibility" : nullptr;
+}
+
+MarchedLight add_resolve(PassList& passes, const PassResources& resources, const Inputs& inputs,
+                         const Settings& settings, const FrameMedia& media, TextureRef face_light) {
     const gl::TextureDesc desc{.format = GL_RGBA16F, .size = {inputs.size, 1}};
-    Outputs outputs;
+    MarchedLight marched;
+    Outputs& outputs = marched.rest;
+    Relit& lamps = marched.lamps;
     outputs.scattering = passes.create("volumetrics/scattering", desc);
     if (media.chromatic) outputs.transmittance = passes.create("volumetrics/transmittance", desc);
+    if (const char* whole = reason_for_whole(inputs, settings))
+        passes.skip("volumetrics/relight", whole);
+    else
+        lamps = {passes.create("volumetrics/lamps", desc), passes.create("volumetrics/lamps_share", desc)};
     const gl::Program& shader = resources.shaders.get(resolve_program, {{"HEIGHT_MEDIA", height_media_axis(media)},
                                                                         {"HAS_SUN", inputs.has_sun},
                                                                         {"LAMPS", inputs.has_lamps ? 2 : 0},
                                                                         {"CHROMATIC", media.chromatic},
+                                                                        {"VISIBILITY", static_cast<bool>(lamps)},
                                                                         {"COUNT_WORK", inputs.count_work}});
     const bool lit = inputs.has_sun || inputs.has_lamps || inputs.has_ambient;
     passes.add(
@@ -144,7 +163,8 @@ Outputs add_resolve(PassList& passes, const PassResources& resources, const Inpu
             builder.sample(face_light);
             if (lit) read_lighting(builder, inputs);
             outputs.scattering = builder.attach_color(outputs.scattering);
-            if (outputs.transmittance) outputs.transmittance = builder.attach_color(outputs.transmittance);
+            for (TextureRef* ref : {&outputs.transmittance, &lamps.light, &lamps.share})
+                if (*ref) *ref = builder.attach_color(*ref);
         },
         [face_light, depth = inputs.depth, cuts = ray_cuts(media, settings), parts = settings.shaft_lamp_parts,
          bind_lighting = lit ? inputs.bind_lighting : nullptr, &shader, &resources](const PassContext& context) {
@@ -155,23 +175,19 @@ Outputs add_resolve(PassList& passes, const PassResources& resources, const Inpu
                 {context.texture(depth), resources.nearest},
                 {face_light ? context.texture(face_light) : gl::TextureView(), resources.nearest}};
             resources.uniforms.bind(GL_UNIFORM_BUFFER, BINDING_VOLUMETRICS);
+            resources.noise.bind();
             shader.set("shaft_cuts", cuts);
             shader.set("shaft_lamp_parts", parts);
             shader.use();
             gl::draw_fullscreen();
         });
-    return outputs;
+    return marched;
 }
 
 }  // namespace
 
-Outputs add_shaft_geometry(PassList& passes, PassResources& resources, const Inputs& inputs,
-                           const Settings& settings, const FrameMedia& media) {
-    if (!media.has_global) {
-        for (const char* name : {"volumetrics/shaft_mesh", "volumetrics/shaft_faces", "volumetrics/shaft_resolve"})
-            passes.skip(name, "no global medium");
-        return {};
-    }
+MarchedLight add_shaft_geometry(PassList& passes, PassResources& resources, const Inputs& inputs,
+                                const Settings& settings, const FrameMedia& media) {
     TextureRef light;
     if (inputs.has_sun)
         light =

@@ -35,11 +35,18 @@ const std::map<Technique, std::vector<const char*>>& passes_of() {
          {"volumetrics/analytic_fog", "volumetrics/radial_visibility", "volumetrics/radial_shafts",
           "volumetrics/depth_downsample", "volumetrics/filter_horizontal", "volumetrics/filter_vertical",
           "volumetrics/upsample", "volumetrics/temporal"}},
-        {Technique::billboards, {"volumetrics/billboards", "volumetrics/billboards_resolve"}},
+        {Technique::billboards,
+         {"volumetrics/depth_downsample", "volumetrics/billboards", "volumetrics/billboards_resolve",
+          "volumetrics/filter_horizontal", "volumetrics/filter_vertical", "volumetrics/upsample",
+          "volumetrics/temporal"}},
         {Technique::shaft_geometry,
-         {"volumetrics/shaft_mesh", "volumetrics/shaft_faces", "volumetrics/shaft_resolve"}},
+         {"volumetrics/depth_downsample", "volumetrics/shaft_mesh", "volumetrics/shaft_faces",
+          "volumetrics/shaft_resolve", "volumetrics/filter_horizontal", "volumetrics/filter_vertical",
+          "volumetrics/relight", "volumetrics/upsample", "volumetrics/temporal"}},
         {Technique::particles,
-         {"volumetrics/particles_simulate", "volumetrics/particles", "volumetrics/particles_resolve"}},
+         {"volumetrics/depth_downsample", "volumetrics/particles_simulate", "volumetrics/particles",
+          "volumetrics/particles_resolve", "volumetrics/filter_horizontal", "volumetrics/filter_vertical",
+          "volumetrics/upsample", "volumetrics/temporal"}},
     };
     return names;
 }
@@ -57,8 +64,12 @@ void skip_others(PassList& passes, Technique technique, bool fog) {
         }
 }
 
+void skip_passes_of(PassList& passes, Technique technique, const std::string& reason) {
+    for (const char* name : passes_of().at(technique)) passes.skip(name, reason);
+}
+
 void skip_all(PassList& passes, const std::string& reason) {
-    for (const char* name : passes_of().at(Technique::ray_march)) passes.skip(name, reason);
+    skip_passes_of(passes, Technique::ray_march, reason);
     passes.skip("volumetrics/composite", reason);
 }
 
@@ -107,11 +118,40 @@ struct Volumetrics::Impl {
         return add_froxel_fog(passes, resources, inputs, settings, media, froxels, froxel_history);
     }
 
+    /// What `add` draws at the chosen resolution becomes a picture.
+    Outputs add_sampled(PassList& passes, const Inputs& inputs, const Settings& settings, const auto& add) {
+        const Inputs low = add_depth_downsample(passes, resources, inputs, settings);
+        return add_reconstruction(passes, resources, inputs, low, settings, add(low), temporal_history);
+    }
+
     Outputs add_ray_march(PassList& passes, const Inputs& inputs, const Settings& settings) {
         const FroxelMedia froxels = add_local_media(passes, inputs, settings);
-        const Inputs low = add_depth_downsample(passes, resources, inputs, settings);
-        const MarchedLight marched = add_march(passes, resources, low, settings, media, froxels);
-        return add_reconstruction(passes, resources, inputs, low, settings, marched, temporal_history);
+        return add_sampled(passes, inputs, settings, [&](const Inputs& low) {
+            return add_march(passes, resources, low, settings, media, froxels);
+        });
+    }
+
+    Outputs add_froxels(PassList& passes, const Inputs& inputs, const Settings& settings) {
+        const FroxelMedia froxels = add_local_media(passes, inputs, settings);
+        Fog fog;
+        Outputs outputs = add_sampled(passes, inputs, settings, [&](const Inputs& low) {
+            Outputs applied =
+                add_froxel(passes, resources, inputs, low, settings, media, froxels, froxel_history);
+            fog = applied.fog;
+            return applied;
+        });
+        outputs.fog = fog;
+        return outputs;
+    }
+
+    Outputs add_shafts(PassList& passes, const Inputs& inputs, const Settings& settings) {
+        if (media.has_global)
+            return add_sampled(passes, inputs, settings, [&](const Inputs& low) {
+                return add_shaft_geometry(passes, resources, low, settings, media);
+            });
+        skip_passes_of(passes, Technique::shaft_geometry, "no global medium");
+        temporal_history.release();
+        return {};
     }
 
     /// The sun of the fog is all that radial_shafts adds to.
@@ -128,24 +168,18 @@ struct Volumetrics::Impl {
                 return {};
             case Technique::ray_march:
                 return add_ray_march(passes, inputs, settings);
-            case Technique::froxel: {
-                const FroxelMedia froxels = add_local_media(passes, inputs, settings);
-                const Inputs low = add_depth_downsample(passes, resources, inputs, settings);
-                const Outputs applied =
-                    add_froxel(passes, resources, inputs, low, settings, media, froxels, froxel_history);
-                Settings unfiltered = settings;  // there is no noise between pixels
-                unfiltered.filter = Filter::none;
-                Outputs outputs =
-                    add_reconstruction(passes, resources, inputs, low, unfiltered, applied, temporal_history);
-                outputs.fog = applied.fog;
-                return outputs;
-            }
+            case Technique::froxel:
+                return add_froxels(passes, inputs, settings);
             case Technique::billboards:
-                return add_billboards(passes, resources, inputs, settings, media);
+                return add_sampled(passes, inputs, settings, [&](const Inputs& low) {
+                    return add_billboards(passes, resources, low, settings, media);
+                });
             case Technique::particles:
-                return add_particles(passes, resources, inputs, settings, media);
+                return add_sampled(passes, inputs, settings, [&](const Inputs& low) {
+                    return add_particles(passes, resources, low, settings, media);
+                });
             case Technique::shaft_geometry:
-                return add_shaft_geometry(passes, resources, inputs, settings, media);
+                return add_shafts(passes, inputs, settings);
             case Technique::analytic_fog:
                 return add_analytic_fog(passes, resources, inputs, settings, media);
             case Technique::radial_shafts:
