@@ -5,12 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <cstdio>
 #include <vector>
 
 #include "engine/core/check.h"
 #include "engine/core/error.h"
-#include "engine/core/files.h"
 #include "reference/reference.h"
 #include "sample_game/bench/machine.h"
 #include "sample_game/progress.h"

@@ -1,8 +1,5 @@
 #include "sample_game/bench/results.h"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <algorithm>
 #include <map>
 

@@ -4,7 +4,6 @@
 #include <memory>
 #include <set>
 #include <string>
-#include <vector>
 
 #include "sample_game/bench/bench.h"
 #include "sample_game/bench/ground_truth.h"

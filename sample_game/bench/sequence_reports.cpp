@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <functional>
 
 #include "sample_game/bench/markdown.h"
 #include "sample_game/bench/sequence_tables.h"

@@ -4,9 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
-#include <map>
 
 #include "engine/core/error.h"
 #include "sample_game/bench/sampling.h"

@@ -1,7 +1,5 @@
 #include "sample_game/bench/svg_plot.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>

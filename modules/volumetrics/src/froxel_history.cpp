@@ -1,7 +1,6 @@
 #include "froxel_history.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "froxel_passes.h"
 #include "reprojection.h"

@@ -2,7 +2,6 @@
 
 #include <glm/glm.hpp>
 #include <span>
-#include <vector>
 
 #include "engine/scene/scene.h"
 

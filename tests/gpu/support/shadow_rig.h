@@ -2,7 +2,6 @@
 
 #include <map>
 #include <memory>
-#include <numeric>
 
 #include "engine/render/light_set.h"
 #include "engine/render/passes/shadow_atlas.h"

@@ -1,6 +1,5 @@
 #include "support/test_scene.h"
 
-#include <array>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <numbers>

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "engine/core/files.h"
 #include "tests/gpu/support/gl_test.h"

@@ -1,4 +1,3 @@
-#include <cmath>
 
 #include "engine/core/files.h"
 #include "engine/gl/buffer.h"
