@@ -10,6 +10,7 @@
 #include "shaders/lib/sampling_noise.glsl"
 #include "shaders/lib/pack.glsl"
 #include "shaders/volumetrics/froxel_grid.glsl"
+#include "shaders/volumetrics/parted.glsl"
 #include "shaders/volumetrics/segment_light.glsl"
 
 layout(local_size_x = 16, local_size_y = 16) in;
@@ -67,15 +68,6 @@ vec3 beside(Ray ray, vec2 uv) {
     Ray other = view_ray(uv);
     return other.direction * (ray.forward_cosine / other.forward_cosine) - ray.direction;
 }
-
-// Visible share of a light, that of its mean in a channel without any; below 0 where there is none in all.
-vec3 visible_share(vec3 visible, vec3 whole) {
-    const float LEAST = 1.0e-30;
-    vec4 part = min(vec4(visible, mean_channel(min(visible, 1.0e30))), 1.0e30);
-    vec4 all = min(vec4(whole, mean_channel(min(whole, 1.0e30))), 1.0e30);
-    vec4 share = all.a < LEAST ? vec4(-1.0) : clamp(part / max(all, LEAST), 0.0, 1.0);
-    return mix(share.rgb, share.aaa, lessThan(all.rgb, vec3(LEAST)));
-}
 #endif
 
 // Adds the local media of a froxel to the segment and its medium.
@@ -128,7 +120,8 @@ void store_slice(ivec3 froxel, SliceLight slice, Extinction transmittance) {
     imageStore(froxel_sun, froxel, round_to_half(vec4(scale * light.sun, 0.0)));
 #endif
 #if LAMPS
-    visibility.rgb = visible_share(light.lamps, light.unshadowed_lamps);
+    vec4 lamps = visible_share(Parted(light.lamps, light.unshadowed_lamps));
+    if (lamps.a > 0.0) visibility.rgb = lamps.rgb;
     imageStore(froxel_lamps, froxel, round_to_half(vec4(scale * light.unshadowed_lamps, 0.0)));
 #endif
     imageStore(froxel_visibility, froxel, round_to_half(visibility));
