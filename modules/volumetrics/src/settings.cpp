@@ -6,8 +6,9 @@ namespace {
 
 SettingsTable::Text curve_text(int part) {
     const std::string number = std::to_string(part);
-    return {"froxel_curve_" + number, "Froxel curve " + number,
-            "Distribution curve: relative thickness of the slices in eighth " + number + " of them, from the eye on."};
+    return {
+        "froxel_curve_" + number, "Froxel curve " + number,
+        "Distribution curve: relative thickness of the slices in eighth " + number + " of them, from the eye on."};
 }
 
 }  // namespace
@@ -43,8 +44,7 @@ const SettingsTable& settings_table() {
             .choice(&S::lamp_integration,
                     {"lamp_integration", "Lamp integration",
                      "Light of lamps at one point of each segment; or over the segment, with the closed form of "
-                     "the inverse "
-                     "square, which costs more per lamp and needs far fewer steps."},
+                     "the inverse square, which costs more per lamp and needs far fewer steps."},
                     {"center", "segment"}, Effect::permutation)
             .boolean(
                 &S::light_transmittance,
@@ -69,35 +69,36 @@ const SettingsTable& settings_table() {
                   0, 1)
             .choice(&S::noise,
                     {"noise", "Noise",
-                     "Where in its segments a pixel samples: the middle; the Bayer matrix; white noise, of each pixel or "
-                     "of a shuffled tile; interleaved gradient noise; or textures of noise: blue, blue in time too "
-                     "(stbn), or made for the filter that follows (fast)."},
+                     "Where in its segments a pixel samples: the middle; the Bayer matrix; white noise, of each "
+                     "pixel or of a shuffled tile; interleaved gradient noise; or textures of noise: blue, blue in "
+                     "time too (stbn), or made for the filter that follows (fast)."},
                     {"none", "bayer", "white", "white_tile", "ign", "blue", "stbn", "fast"}, Effect::resource)
             .integer_of(&S::noise_size,
                         {"noise_size", "Noise size",
-                         "Side of the tile of bayer and white_tile; a larger one has more offsets and needs a wider "
-                         "filter.",
+                         "Side of the tile of bayer and white_tile; a larger one has more offsets and needs a "
+                         "wider filter.",
                          "px"},
                         {2, 4, 8, 16}, Effect::resource)
             .choice(&S::noise_time,
                     {"noise_time", "Noise in time",
-                     "How the noise changes from frame to frame, for what averages frames: not at all; in its own way "
-                     "(the next slice of a texture, other white noise, a shifted gradient; a tile by the golden ratio); "
-                     "all offsets by the golden ratio; or all pixels by the R2 sequence times the side of the tile, or times "
-                     "128 px."},
+                     "How the noise changes from frame to frame, for what averages frames: not at all; in its own "
+                     "way (the next slice of a texture, other white noise, a shifted gradient; a tile by the "
+                     "golden ratio); all offsets by the golden ratio; or all pixels by the R2 sequence times the "
+                     "side of the tile, or times 128 px."},
                     {"fixed", "own", "golden_ratio", "r2"}, Effect::uniform)
-            .choice(&S::fast_space, {"fast_space", "FAST in space", "Spatial filter that the noise fast was made for."},
+            .choice(&S::fast_space,
+                    {"fast_space", "FAST in space", "Spatial filter that the noise fast was made for."},
                     spatial_kernel_names(), Effect::resource)
             .choice(&S::fast_time,
                     {"fast_time", "FAST in time",
-                     "Temporal filter that the noise fast was made for: an exponential mean of weight 0.1, or the mean "
-                     "of 8 frames."},
+                     "Temporal filter that the noise fast was made for: an exponential mean of weight 0.1, or the "
+                     "mean of 8 frames."},
                     temporal_kernel_names(), Effect::resource)
             .choice(&S::filter,
                     {"filter", "Filter",
-                     "Spatial filter that takes noise away, in two passes: mean of 3 or 5 pixels each way, Gaussian of "
-                     "sigma 1 in 7 taps, binomial of 3 or 5 taps, Gaussian of chosen sigma in 15 taps, or mean of 9 "
-                     "(uniform9). What lies outside of the picture is left out."},
+                     "Spatial filter that takes noise away, in two passes: mean of 3 or 5 pixels each way, "
+                     "Gaussian of sigma 1 in 7 taps, binomial of 3 or 5 taps, Gaussian of chosen sigma in 15 taps, "
+                     "or mean of 9 (uniform9). What lies outside of the picture is left out."},
                     {"none", "box3", "box5", "gaussian1", "binomial3", "binomial5", "gaussian15", "uniform9"},
                     Effect::permutation)
             .real(&S::filter_sigma,
@@ -106,33 +107,35 @@ const SettingsTable& settings_table() {
                   0.3, 7)
             .boolean(&S::filter_narrows,
                      {"filter_narrows", "Filter narrows",
-                      "The filter is the narrower the more frames are in a pixel's mean, for less noise is left. Where "
-                      "temporal is accumulate, before the filter."},
+                      "The filter is the narrower the more frames are in a pixel's mean, for less noise is left. "
+                      "Where temporal is accumulate, before the filter."},
                      Effect::permutation)
             .choice(&S::filter_depth,
                     {"filter_depth", "Filter and depth",
-                     "Whether the filter stops at depth edges: not at all; where depth differs from the pixel's; or "
-                     "where it also differs from the plane that the pixel lies in, so that grazing floors are filtered."},
+                     "Whether the filter stops at depth edges: not at all; where depth differs from the pixel's; "
+                     "or where it also differs from the plane that the pixel lies in, so that grazing floors are "
+                     "filtered."},
                     {"none", "relative", "plane"}, Effect::permutation)
             .real(&S::filter_depth_falloff,
                   {"filter_depth_falloff", "Filter depth falloff",
-                   "How fast the weight falls with relative depth difference: it is 0 from a difference of 1 / falloff "
-                   "on. Of the filter and of bilateral up-sampling."},
+                   "How fast the weight falls with relative depth difference: it is 0 from a difference of 1 / "
+                   "falloff on. Of the filter and of bilateral up-sampling."},
                   0, 100)
             .choice(&S::reconstruct,
                     {"reconstruct", "Reconstruct",
-                     "What the filter, and a mean over frames before it, take from ray_march: the light; or the visible "
-                     "share of it, times the unshadowed light of each pixel, which has no noise."},
+                     "What the filter, and a mean over frames before it, take from ray_march and from the lamps of "
+                     "shaft_geometry: the light; or the visible share of it, times the unshadowed light of each "
+                     "pixel, which has no noise."},
                     {"light", "visibility"}, Effect::permutation)
             .choice(&S::resolution,
                     {"resolution", "Resolution",
-                     "Pixels along each side that ray_march, radial_shafts and the application of froxels are computed "
-                     "at; time falls with the square."},
+                     "Pixels along each side that all techniques but analytic_fog and reference are computed at, "
+                     "of froxel the application alone; time falls with the square."},
                     {"full", "half", "quarter"}, Effect::resource)
             .choice(&S::resolution_depth,
                     {"resolution_depth", "Resolution depth",
-                     "Which depth of a block stands for it at a lower resolution: the nearest, the farthest, or both in "
-                     "turn like a checkerboard."},
+                     "Which depth of a block stands for it at a lower resolution: the nearest, the farthest, or "
+                     "both in turn like a checkerboard."},
                     {"min", "max", "checkerboard"}, Effect::uniform)
             .choice(&S::upsample,
                     {"upsample", "Up-sampling",
@@ -141,36 +144,38 @@ const SettingsTable& settings_table() {
                     {"nearest", "bilinear", "bilateral", "nearest_depth"}, Effect::uniform)
             .choice(&S::temporal,
                     {"temporal", "Temporal filter",
-                     "Mean over frames: none; of the same pixel, ugly in motion; an exponential mean along reprojected "
-                     "motion; the same, less of it the farther the surface found there is from this one; or a mean that "
-                     "counts its frames."},
+                     "Mean over frames: none; of the same pixel, ugly in motion; an exponential mean along "
+                     "reprojected motion; the same, less of it the farther the surface found there is from this "
+                     "one; or a mean that counts its frames."},
                     {"off", "blend", "ema", "acceptance", "accumulate"}, Effect::resource)
-            .choice(&S::temporal_place,
-                    {"temporal_place", "Temporal place",
-                     "Before the spatial filter and up-sampling, or after them."},
-                    {"before", "after"}, Effect::resource)
+            .choice(
+                &S::temporal_place,
+                {"temporal_place", "Temporal place", "Before the spatial filter and up-sampling, or after them."},
+                {"before", "after"}, Effect::resource)
             .real(&S::temporal_weight,
-                  {"temporal_weight", "Temporal weight", "Least weight of the new frame, but for accumulate."}, 0.01, 1)
+                  {"temporal_weight", "Temporal weight", "Least weight of the new frame, but for accumulate."},
+                  0.01, 1)
             .real(&S::temporal_scale,
                   {"temporal_scale", "Temporal scale",
-                   "Of acceptance and accumulate: what is kept falls by exp(-distance * scale), of this surface to the "
-                   "one seen there before; the distance is relative to that of the nearer one from the camera. 0 keeps "
-                   "all.",
+                   "Of acceptance and accumulate: what is kept falls by exp(-distance * scale), of this surface to "
+                   "the one seen there before; the distance is relative to that of the nearer one from the camera. "
+                   "0 keeps all.",
                    ""},
                   0, 1000)
             .integer(&S::temporal_frames,
                      {"temporal_frames", "Temporal frames", "Most frames that accumulate counts."}, 1, 256,
                      Effect::uniform, Scale::logarithmic)
-            .boolean(&S::temporal_clip,
-                     {"temporal_clip", "Temporal clip",
-                      "Clips what is kept to the range of values around the pixel in the new frame, and of the noise that "
-                      "temporal_reject has learnt. Light that few samples find gets darker. Not of blend."},
-                     Effect::uniform)
+            .boolean(
+                &S::temporal_clip,
+                {"temporal_clip", "Temporal clip",
+                 "Clips what is kept to the range of values around the pixel in the new frame, and of the noise "
+                 "that temporal_reject has learnt. Light that few samples find gets darker. Not of blend."},
+                Effect::uniform)
             .boolean(&S::temporal_reject,
                      {"temporal_reject", "Temporal rejection",
-                      "Forgets what is kept where the new frame differs from it by more than noise: lights, shadows or media "
-                      "changed. Changes of sun, camera, global media and lamps that the host tells count always. Not of "
-                      "blend."},
+                      "Forgets what is kept where the new frame differs from it by more than noise: lights, "
+                      "shadows or media changed. Changes of sun, camera, global media and lamps that the host "
+                      "tells count always. Not of blend."},
                      Effect::uniform)
             .integer(&S::froxels_x,
                      {"froxels_x", "Froxels across",
@@ -187,13 +192,12 @@ const SettingsTable& settings_table() {
                    "froxel neither lamps nor shadows.",
                    "m"},
                   4, 4096, Scale::logarithmic)
-            .choice(
-                &S::froxel_distribution,
-                {"froxel_distribution", "Froxel distribution",
-                 "Slices of equal thickness; in proportion to their depth, from 1/256 of the far distance on; or "
-                 "logarithmic, in between: equal near the eye, in proportion to depth far from it; a curve of your "
-                 "own; or auto, where the media in view are and before they have dimmed."},
-                {"linear", "exponential", "logarithmic", "curve", "auto"}, Effect::uniform)
+            .choice(&S::froxel_distribution,
+                    {"froxel_distribution", "Froxel distribution",
+                     "Slices of equal thickness; in proportion to their depth, from 1/256 of the far distance on; "
+                     "or logarithmic, in between: equal near the eye, in proportion to depth far from it; a curve "
+                     "of your own; or auto, where the media in view are and before they have dimmed."},
+                    {"linear", "exponential", "logarithmic", "curve", "auto"}, Effect::uniform)
             .real(&S::froxel_curve_1, curve_text(1), 0.001, 1000, Scale::logarithmic)
             .real(&S::froxel_curve_2, curve_text(2), 0.001, 1000, Scale::logarithmic)
             .real(&S::froxel_curve_3, curve_text(3), 0.001, 1000, Scale::logarithmic)
@@ -202,46 +206,48 @@ const SettingsTable& settings_table() {
             .real(&S::froxel_curve_6, curve_text(6), 0.001, 1000, Scale::logarithmic)
             .real(&S::froxel_curve_7, curve_text(7), 0.001, 1000, Scale::logarithmic)
             .real(&S::froxel_curve_8, curve_text(8), 0.001, 1000, Scale::logarithmic)
-            .integer(&S::froxel_history,
-                     {"froxel_history", "Froxel history",
-                      "Technique froxel: frames over which the visibility of sun and lamps is averaged, sampled all over "
-                      "the froxel; more is smoother, and moving shadows lag more. 0: none, which costs nothing."},
-                     0, 256, Effect::resource)
+            .integer(
+                &S::froxel_history,
+                {"froxel_history", "Froxel history",
+                 "Technique froxel: frames over which the visibility of sun and lamps is averaged, sampled all "
+                 "over the froxel; more is smoother, and moving shadows lag more. 0: none, which costs nothing."},
+                0, 256, Effect::resource)
             .integer(&S::billboard_layers,
                      {"billboard_layers", "Billboard layers",
-                      "Technique billboards: sheets of the global media up to the maximum distance, each lit at every "
-                      "pixel; time grows in proportion."},
+                      "Technique billboards: sheets of the global media up to the maximum distance, each lit at "
+                      "every pixel; time grows in proportion."},
                      1, 256, Effect::uniform, Scale::logarithmic)
-            .integer(&S::billboard_local_layers,
-                     {"billboard_local_layers", "Billboard local layers",
-                      "Technique billboards: sheets of each local medium; time grows in proportion where it is seen."},
-                     1, 64, Effect::uniform, Scale::logarithmic)
+            .integer(
+                &S::billboard_local_layers,
+                {"billboard_local_layers", "Billboard local layers",
+                 "Technique billboards: sheets of each local medium; time grows in proportion where it is seen."},
+                1, 64, Effect::uniform, Scale::logarithmic)
             .real(&S::billboard_fade,
                   {"billboard_fade", "Billboard fade",
-                   "Technique billboards: density falls to 0 over this distance to the eye, so that no sheet is seen "
-                   "edge on or pops; 0 is none.",
+                   "Technique billboards: density falls to 0 over this distance to the eye, so that no sheet is "
+                   "seen edge on or pops; 0 is none.",
                    "m"},
                   0, 10)
             .integer(&S::particle_count,
                      {"particle_count", "Particles",
-                      "Technique particles: of the global media, round the eye, a tenth of them in view; noise falls "
-                      "and detail grows with it, time grows in proportion."},
+                      "Technique particles: of the global media, round the eye, a tenth of them in view; noise "
+                      "falls and detail grows with it, time grows in proportion."},
                      512, 1048576, Effect::resource, Scale::logarithmic)
             .integer(&S::particle_local_count,
                      {"particle_local_count", "Local particles",
-                      "Technique particles: of all local media in view together, by volume and extinction, at least "
-                      "32 each; time grows in proportion."},
+                      "Technique particles: of all local media in view together, by volume and extinction, at "
+                      "least 32 each; time grows in proportion."},
                      32, 1048576, Effect::resource, Scale::logarithmic)
             .real(&S::particle_distance,
                   {"particle_distance", "Particle distance",
-                   "Technique particles: where those of the global media end, behind them is the closed form without "
-                   "shadows or lamps; particles are as fine as it is short.",
+                   "Technique particles: where those of the global media end, behind them is the closed form "
+                   "without shadows or lamps; particles are as fine as it is short.",
                    "m"},
                   4, 4096, Scale::logarithmic)
             .real(&S::particle_size,
                   {"particle_size", "Particle size",
-                   "Technique particles: radius in units of their spacing; larger are softer and less noisy, and cost "
-                   "the square of it."},
+                   "Technique particles: radius in units of their spacing; larger are softer and less noisy, and "
+                   "cost the square of it."},
                   0.25, 4)
             .real(&S::particle_drift,
                   {"particle_drift", "Particle drift",
@@ -250,13 +256,14 @@ const SettingsTable& settings_table() {
                   0, 10)
             .choice(&S::fog_mode,
                     {"fog_mode", "Fog mode",
-                     "Technique analytic_fog: transmittance that falls linearly with distance, as a Gaussian of it, or "
-                     "exponentially, with the media as they are at the eye; or exponential with their height profiles."},
+                     "Technique analytic_fog: transmittance that falls linearly with distance, as a Gaussian of "
+                     "it, or exponentially, with the media as they are at the eye; or exponential with their "
+                     "height profiles."},
                     {"linear", "squared", "exponential", "height"}, Effect::uniform)
             .choice(&S::radial_occlusion,
                     {"radial_occlusion", "Radial occlusion",
-                     "Technique radial_shafts: the share of samples towards the sun on screen that something covers; or "
-                     "which parts of the view ray the surfaces seen there shadow."},
+                     "Technique radial_shafts: the share of samples towards the sun on screen that something "
+                     "covers; or which parts of the view ray the surfaces seen there shadow."},
                     {"coverage", "intervals"}, Effect::permutation)
             .integer(&S::radial_samples,
                      {"radial_samples", "Radial samples",
@@ -269,8 +276,8 @@ const SettingsTable& settings_table() {
                   0.01, 100, Scale::logarithmic)
             .real(&S::radial_unseen,
                   {"radial_unseen", "Radial unseen",
-                   "Technique radial_shafts: share of the sun's light that arrives where the sun is out of the picture, "
-                   "and nothing is known about its way: 1 outdoors, about 0 in a closed room."},
+                   "Technique radial_shafts: share of the sun's light that arrives where the sun is out of the "
+                   "picture, and nothing is known about its way: 1 outdoors, about 0 in a closed room."},
                   0, 1)
             .integer(&S::sun_volume_size,
                      {"sun_volume_size", "Sun volume size",
@@ -282,15 +289,15 @@ const SettingsTable& settings_table() {
                       "Directions across, and distances, of the volume that holds what local media leave of the "
                       "light of one lamp."},
                      4, 64, Effect::resource, Scale::logarithmic)
-            .integer(&S::lamp_volume_count,
-                     {"lamp_volume_count", "Lamp volumes",
-                      "Most lamps whose light local media attenuate, those whose range is nearest to the eye "
-                      "first."},
-                     1, 1024, Effect::resource, Scale::logarithmic)
+            .integer(
+                &S::lamp_volume_count,
+                {"lamp_volume_count", "Lamp volumes",
+                 "Most lamps whose light local media attenuate, those whose range is nearest to the eye first."},
+                1, 1024, Effect::resource, Scale::logarithmic)
             .integer(&S::shaft_grid,
                      {"shaft_grid", "Shaft grid",
-                      "Technique shaft_geometry: cells per side of the sun's mesh; edges of shafts are as fine as a "
-                      "cell, time grows with the square."},
+                      "Technique shaft_geometry: cells per side of the sun's mesh; edges of shafts are as fine as "
+                      "a cell, time grows with the square."},
                      16, 1024, Effect::resource, Scale::logarithmic)
             .integer(&S::shaft_segments,
                      {"shaft_segments", "Shaft segments",
@@ -311,12 +318,11 @@ const SettingsTable& settings_table() {
                       "Samples per lamp and 16 steps of the technique reference, at equal angles as seen from the "
                       "lamp."},
                      1, 64, Effect::uniform, Scale::logarithmic)
-            .integer(
-                &S::reference_light_steps,
-                {"reference_light_steps", "Reference light steps",
-                 "Samples of the technique reference between a light and a point, in each local medium that is "
-                 "soft, noisy or has a height profile."},
-                1, 256, Effect::uniform, Scale::logarithmic);
+            .integer(&S::reference_light_steps,
+                     {"reference_light_steps", "Reference light steps",
+                      "Samples of the technique reference between a light and a point, in each local medium that "
+                      "is soft, noisy or has a height profile."},
+                     1, 256, Effect::uniform, Scale::logarithmic);
     return table;
 }
 
