@@ -87,16 +87,24 @@ std::vector<std::string> PassList::live_pass_names() const {
     return names;
 }
 
-std::vector<PassList::TextureInfo> PassList::textures() const {
+PassList::TextureInfo PassList::info_of(const Resource& r) const {
     const auto pass_info = [&](int pass) {
         return pass < 0 ? -1 : static_cast<int>(passes_[static_cast<std::size_t>(pass)].info);
     };
+    return {
+        r.name, r.desc, r.transient, r.first_use >= 0, r.texture.id, pass_info(r.first_use), pass_info(r.last_use),
+        r.slot};
+}
+
+std::vector<PassList::TextureInfo> PassList::textures() const {
     std::vector<TextureInfo> result;
     for (const Resource& r : resources_)
-        if (!r.is_buffer)
-            result.push_back({r.name, r.desc, r.transient, r.first_use >= 0, r.texture.id, pass_info(r.first_use),
-                              pass_info(r.last_use), r.slot});
+        if (!r.is_buffer) result.push_back(info_of(r));
     return result;
+}
+
+PassList::TextureInfo PassList::info(TextureRef ref) const {
+    return info_of(current(ref.index, ref.version));
 }
 
 template <class Ref>

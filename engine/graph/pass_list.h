@@ -140,6 +140,7 @@ class PassList {
     /// For the texture viewer: valid until the pool is used by the next frame. A transient whose slot a later one
     /// took shows that one's content: export what is to be looked at.
     [[nodiscard]] std::vector<TextureInfo> textures() const;
+    [[nodiscard]] TextureInfo info(TextureRef ref) const;  ///< one of them
     [[nodiscard]] std::string to_text() const;
     [[nodiscard]] std::string to_dot() const;  ///< Graphviz
 
@@ -184,6 +185,7 @@ class PassList {
     };
 
     std::uint32_t add_resource(Resource resource);
+    [[nodiscard]] TextureInfo info_of(const Resource& resource) const;
     [[nodiscard]] const Resource& current(std::uint32_t index, std::uint32_t version) const;
     [[nodiscard]] const Resource& used_by(std::size_t pass, std::uint32_t index) const;
     void check_contents() const;

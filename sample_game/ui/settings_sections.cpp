@@ -6,7 +6,10 @@ namespace tyndall {
 
 const std::vector<SettingsSection>& settings_sections() {
     using enum volumetrics::Technique;
-    static const std::vector<volumetrics::Technique> sampled{ray_march, froxel, radial_shafts};
+    static const std::vector<volumetrics::Technique> noisy{ray_march, billboards, particles, shaft_geometry,
+                                                           radial_shafts};
+    static const std::vector<volumetrics::Technique> sampled{ray_march, froxel,         billboards,
+                                                             particles, shaft_geometry, radial_shafts};
     static const std::vector<SettingsSection> sections{
         {"Ray march", {"steps", "stepping"}, "", {ray_march}, ray_march},
         {"Billboards", {"billboard_"}, "", {billboards}, billboards},
@@ -16,7 +19,7 @@ const std::vector<SettingsSection>& settings_sections() {
         {"Radial shafts", {"radial_"}, "", {radial_shafts}, radial_shafts},
         {"Reference", {"reference_"}, "", {reference}, reference},
         {"Froxels", {"froxel"}, "", {}, froxel},
-        {"Noise", {"noise", "fast_"}, "noise", {ray_march, radial_shafts}, {}},
+        {"Noise", {"noise", "fast_"}, "noise", noisy, {}},
         {"Spatial filter", {"filter", "reconstruct"}, "filter", sampled, {}},
         {"Resolution", {"resolution", "upsample"}, "resolution", sampled, {}},
         {"Temporal filter", {"temporal"}, "temporal", sampled, {}},

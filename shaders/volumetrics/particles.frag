@@ -1,6 +1,7 @@
 // Spreads a particle over its disc, added to those before: no order is needed, for each has its own transmittance to the
 // eye. The kernel is a function of the distance b between ray and centre, with an integral of 1 over the plane:
 //     K(b) = 3 / (pi R^2) (1 - b^2 / R^2)^2.
+// No pixel samples anything: noise is where the particles are, wider than what filters take away.
 // Soft against depth, and where the eye is in it: the share of the diameter along the ray that lies between eye and surface.
 #include "shaders/lib/phase.glsl"
 #include "shaders/lib/work.glsl"

@@ -6,7 +6,8 @@
 // Global media: a lattice of cells round the eye, four levels, each twice as coarse and as wide as the one before. Every
 // cell holds one particle at a place that depends on the cell alone, so particles stay where they are when the eye moves,
 // and there are as many everywhere; between the levels the volume fades from one to the other. Local media: a
-// low-discrepancy sequence in each shape. All positions are functions of time: nothing is kept from frame to frame.
+// low-discrepancy sequence in each shape. All positions are functions of time: nothing is kept from frame to frame. Where
+// frames are averaged each has other positions, which go on with the sequence.
 #define CHROMATIC 1
 
 #include "shaders/interface/shadows.glsl"
@@ -34,6 +35,7 @@ uniform float spacing;         // m
 uniform vec2 reach;            // m from the eye along the axes: where the level before this one ends, and where this one does
 // Local media.
 uniform float drift;           // m, since time 0
+uniform uint placement;        // frame of the noise in time, where frames are averaged
 
 const float FADE_SHARE = 0.25;  // of the reach of a level
 
@@ -41,17 +43,20 @@ float level_share(float distance, float end) {
     return end > 0.0 ? clamp((end - distance) / (FADE_SHARE * end), 0.0, 1.0) : 0.0;
 }
 
+const uvec3 R3 = uvec3(3518319155u, 2882110345u, 2360945575u);  // Roberts 2018, times 2^32
+
 vec3 lattice_particle(uint index) {
     uvec3 cell = uvec3(index, index / uint(side), index / uint(side * side)) % uint(side);
     uint x = hash_uvec3(uvec3(ivec3(cell) + lower_cell), uint(side));
     uint y = hash_uint(x);
-    return lower_corner + (vec3(cell) + vec3(unit_float(x), unit_float(y), unit_float(hash_uint(y)))) * spacing;
+    uvec3 place = uvec3(x, y, hash_uint(y)) + placement * R3;
+    return lower_corner + (vec3(cell) + vec3(unit_float(place.x), unit_float(place.y), unit_float(place.z))) * spacing;
 }
 
-// The R3 sequence (Roberts 2018) in the shape's cube, or with that volume in its ball; it drifts along x and wraps
+// The R3 sequence in the shape's cube, or with that volume in its ball; it drifts along x and wraps
 // round, or turns about y.
 vec3 shape_particle(LocalMedium local, uint index) {
-    uvec3 r = (index + 1u) * uvec3(3518319155u, 2882110345u, 2360945575u);
+    uvec3 r = (index + 1u + placement * count) * R3;
     vec3 u = vec3(unit_float(r.x), unit_float(r.y), unit_float(r.z));
     vec3 extent = local.extent_softness.xyz;
     vec3 p;

@@ -84,6 +84,7 @@ std::vector<ParticleBatch> particle_batches(const Inputs& inputs, const Settings
     std::uint32_t first = 0;
     for (ParticleBatch& batch : batches) {
         batch.first = first;
+        batch.placement = settings.temporal == Temporal::off ? 0 : media.data.noise.z;
         first += batch.count;
     }
     return batches;

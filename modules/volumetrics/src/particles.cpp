@@ -63,6 +63,7 @@ void dispatch(const gl::Program& shader, const ParticleBatch& batch) {
     shader.set("spacing", batch.spacing);
     shader.set("reach", batch.reach);
     shader.set("drift", batch.drift);
+    shader.set("placement", batch.placement);
     glDispatchCompute((batch.count + 63) / 64, 1, 1);
 }
 
@@ -124,8 +125,9 @@ Sums add_draw(PassList& passes, const PassResources& resources, const Inputs& in
                 if (*sum) *sum = builder.attach_color(*sum);
             if (hides) builder.attach_depth_read_only(inputs.depth);
         },
-        [hides, depth = inputs.depth, targets = static_cast<int>(media.has_global) + 2 * static_cast<int>(local), count,
-         matrix = view_projection(inputs), near = inputs.znear, &shader, &resources](const PassContext& context) {
+        [hides, depth = inputs.depth, targets = static_cast<int>(media.has_global) + 2 * static_cast<int>(local),
+         count, matrix = view_projection(inputs), near = inputs.znear, &shader,
+         &resources](const PassContext& context) {
             gl::apply({.depth_test = hides, .blend = gl::Blend::add});
             context.bind_framebuffer();
             const glm::vec4 nothing{0};

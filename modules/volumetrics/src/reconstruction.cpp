@@ -28,13 +28,15 @@ int resolution_factor(const Settings& settings) {
     return !can_be_reconstructed(settings.technique) ? 1 : 1 << static_cast<int>(settings.resolution);
 }
 
-Outputs add_reconstruction(PassList& passes, const PassResources& resources, const Inputs& inputs, const Inputs& low,
-                           const Settings& settings, const Outputs& sampled, TemporalHistory& history) {
+Outputs add_reconstruction(PassList& passes, const PassResources& resources, const Inputs& inputs,
+                           const Inputs& low, const Settings& settings, const Outputs& sampled,
+                           TemporalHistory& history) {
     return add_reconstruction(passes, resources, inputs, low, settings, MarchedLight{.rest = sampled}, history);
 }
 
-Outputs add_reconstruction(PassList& passes, const PassResources& resources, const Inputs& inputs, const Inputs& low,
-                           const Settings& settings, const MarchedLight& marched, TemporalHistory& history) {
+Outputs add_reconstruction(PassList& passes, const PassResources& resources, const Inputs& inputs,
+                           const Inputs& low, const Settings& settings, const MarchedLight& marched,
+                           TemporalHistory& history) {
     Outputs result = noisy_part(marched);
     const bool sampled = is_sampled(settings, inputs);
     const bool temporal = settings.temporal != Temporal::off && sampled;

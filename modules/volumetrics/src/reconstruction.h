@@ -21,8 +21,8 @@ struct MarchedLight;
 /// Between samples and picture, each where settings ask for it:
 ///     temporal (before) -> spatial filter -> relight -> up-sampling -> temporal (after)
 /// The filter only where the technique's pixels sample at noise.
-/// `sampled` is of the size of `low` (add_depth_downsample); the result is of the host's. Every texture of `sampled`
-/// goes the same way.
+/// `sampled` is of the size of `low` (add_depth_downsample); the result is of the host's. Every texture of
+/// `sampled` goes the same way.
 [[nodiscard]] Outputs add_reconstruction(PassList& passes, const PassResources& resources, const Inputs& inputs,
                                          const Inputs& low, const Settings& settings, const Outputs& sampled,
                                          TemporalHistory& history);
@@ -32,8 +32,8 @@ struct MarchedLight;
                                          const Inputs& low, const Settings& settings, const MarchedLight& marched,
                                          TemporalHistory& history);
 
-/// The spatial filter, two passes at the resolution of `source`; settings.filter is not none. With `frames` (y: frames
-/// in the mean that each pixel of `source` is) the kernel is the narrower the more there are.
+/// The spatial filter, two passes at the resolution of `source`; settings.filter is not none. With `frames` (y:
+/// frames in the mean that each pixel of `source` is) the kernel is the narrower the more there are.
 [[nodiscard]] Outputs add_filter(PassList& passes, const PassResources& resources, const Inputs& low,
                                  const Settings& settings, const Outputs& source, TextureRef frames);
 /// From the resolution of `low` to the host's.

@@ -31,18 +31,17 @@ const ProgramDesc faces_program{.name = "volumetrics/shaft_faces",
                                 .valid = {}};
 const ProgramRegistry::Registration faces_registration(faces_program);
 
-const ProgramDesc resolve_program{.name = "volumetrics/shaft_resolve",
-                                  .stages = {{GL_VERTEX_SHADER, "shaders/volumetrics/march.vert"},
-                                             {GL_FRAGMENT_SHADER, "shaders/volumetrics/shaft_resolve.frag"}},
-                                  .axes = {{"HEIGHT_MEDIA", {0, 1, MAX_HEIGHT_MEDIA}},
-                                           {"HAS_SUN", {0, 1}},
-                                           {"LAMPS", {0, 2}},
-                                           {"CHROMATIC", {0, 1}},
-                                           {"VISIBILITY", {0, 1}},  // of lamps, apart
-                                           {"COUNT_WORK", {0, 1}}},
-                                  .valid = [](const Permutation& p) {
-                                      return p.at("VISIBILITY") == 0 || p.at("LAMPS") != 0;
-                                  }};
+const ProgramDesc resolve_program{
+    .name = "volumetrics/shaft_resolve",
+    .stages = {{GL_VERTEX_SHADER, "shaders/volumetrics/march.vert"},
+               {GL_FRAGMENT_SHADER, "shaders/volumetrics/shaft_resolve.frag"}},
+    .axes = {{"HEIGHT_MEDIA", {0, 1, MAX_HEIGHT_MEDIA}},
+             {"HAS_SUN", {0, 1}},
+             {"LAMPS", {0, 2}},
+             {"CHROMATIC", {0, 1}},
+             {"VISIBILITY", {0, 1}},  // of lamps, apart
+             {"COUNT_WORK", {0, 1}}},
+    .valid = [](const Permutation& p) { return p.at("VISIBILITY") == 0 || p.at("LAMPS") != 0; }};
 const ProgramRegistry::Registration resolve_registration(resolve_program);
 
 void read_lighting(PassBuilder& builder, const Inputs& inputs) {

@@ -195,9 +195,9 @@ Frame StubHost::render(const Settings& settings) {
     if (count_work)
         for (const auto& [name, counts] : counters.read()) frame.work[name] = counts;
     frame.persistent_bytes = volumetrics_.persistent_bytes();
-    const auto textures = passes.textures();
     const auto read = [&](TextureRef ref) {
-        return gl::read_texture(gl::TextureView(textures[ref.index].id, textures[ref.index].desc));
+        const PassList::TextureInfo info = passes.info(ref);
+        return gl::read_texture(gl::TextureView(info.id, info.desc));
     };
     if (out.scattering) {
         frame.scattering = read(out.scattering);

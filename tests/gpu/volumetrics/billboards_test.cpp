@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "tests/gpu/support/gl_test.h"
+#include "tests/gpu/support/low_resolution.h"
 #include "tests/gpu/support/volumetrics_host.h"
 
 namespace tyndall::test {
@@ -110,6 +111,103 @@ TEST_F(VolumetricsBillboards, LampsConvergeWithTheLayers) {
     };
     EXPECT_GT(error(8), 0.02);  // a lamp between the sheets: the technique's failure
     EXPECT_LT(error(256), 5e-3);
+}
+
+/// Mean of 55 frames whose offsets leave no gap over 1.18 / 55.
+Image mean_over_frames(StubHost& host, Settings s, bool transmittance = false) {
+    constexpr int frames = 55;
+    s.noise = volumetrics::Noise::bayer;
+    s.noise_time = volumetrics::NoiseTime::golden_ratio;
+    Image mean;
+    for (int frame = 0; frame < frames; ++frame) {
+        host.frame_index = static_cast<std::uint32_t>(frame);
+        const Frame picture = host.render(s);
+        const Image& image = transmittance ? picture.transmittance : picture.scattering;
+        if (frame == 0) mean = Image(image.size, image.channels);
+        for (std::size_t i = 0; i < mean.pixels.size(); ++i) mean.pixels[i] += image.pixels[i] / frames;
+    }
+    return mean;
+}
+
+// Rays that pass from light into the shadow of a half plane, each at another depth. The middle of a sheet is lit or
+// not.
+TEST_F(VolumetricsBillboards, MeanOverFramesIsTheLitShareOfEachSheet) {
+    host.size = {32, 1};
+    host.vertical_fov = 0.04F;
+    host.view_depth = [](int, int) { return 40.0F; };
+    host.has_sun = true;
+    host.sun_direction = glm::normalize(glm::vec3(-0.5F, -1, 0));
+    host.shadows = 3;
+    host.global = {{.sigma_s = glm::vec3(0.001F)}};
+    s.billboard_layers = 4;
+    s.max_distance = 40;
+    // At y = 0 the light of x = -2 on passes the edge.
+    const auto lit = [&](int x) {
+        const glm::vec3 ray = host.ray(x, 0);
+        return (ray.x < 0 ? std::min(2 * ray.z / ray.x, 40.0F) : 40.0F) / -ray.z;
+    };
+    const double source = 0.001 * phase_hg(0, 0), whole = source * 40;
+    const Frame fixed = host.render(s);
+    const Image mean = mean_over_frames(host, s);
+    double bias = 0;
+    for (int x = 0; x < 32; ++x) {
+        const double expected = source * -std::expm1(-0.001 * lit(x)) / 0.001;
+        bias = std::max(bias, std::abs(fixed.scattering.at(x, 0)[0] - expected));
+        ASSERT_NEAR(mean.at(x, 0)[0], expected, 0.02 * whole) << x;
+    }
+    EXPECT_GT(bias, 0.15 * whole) << "the middle stands for 24 m";
+    s.noise = volumetrics::Noise::white;
+    EXPECT_EQ(host.render(s).transmittance.pixels, fixed.transmittance.pixels)
+        << "what is not sampled has no noise";
+}
+
+TEST_F(VolumetricsBillboards, MeanOverFramesIsTheGlowOfALampAndTheDensityOfASoftBall) {
+    host.vertical_fov = 1e-4F;
+    host.view_depth = [](int, int) { return 40.0F; };
+    host.global = {{.sigma_s = glm::vec3(0.002F)}};
+    host.lights = {point_light({2, 0, -12}, 100)};
+    s.billboard_layers = 8;
+    double expected = 0;
+    constexpr int samples = 40000;
+    for (int i = 0; i < samples; ++i) {
+        const double t = 40.0 * (i + 0.5) / samples, d2 = 4 + (t - 12) * (t - 12);
+        expected += 0.002 * phase_hg(0, 0) * 100 / d2 * std::exp(-0.002 * (t + std::sqrt(d2))) * 40 / samples;
+    }
+    EXPECT_GT(std::abs(host.render(s).scattering.at(0, 0)[0] / expected - 1), 0.04);
+    EXPECT_NEAR(mean_over_frames(host, s).at(0, 0)[0], expected, 0.015 * expected);
+
+    // Through the centre of a ball of radius 5 m, dense 1 in its inner 2 m: one sheet, density 1 in its middle. The
+    // mean optical depth is half that of the ramps and all of the core.
+    host.global.clear();
+    host.lights.clear();
+    host.local = {{.center = {0, 0, -20}, .half_extent = {5, 5, 5}, .softness = 3, .sigma_a = glm::vec3(0.01F)}};
+    s.billboard_local_layers = 1;
+    const double depth = 0.01 * (4 + 3);
+    EXPECT_NEAR(host.render(s).transmittance.at(0, 0)[0], std::exp(-0.1), 2e-3);
+    EXPECT_NEAR(mean_over_frames(host, s, true).at(0, 0)[0], std::exp(-depth), 2e-3);
+}
+
+TEST_F(VolumetricsBillboards, LowerResolutionIsTheSameWhereLightIsSmooth) {
+    host.vertical_fov = 0.1F;
+    host.view_depth = [](int, int) { return 12.0F; };
+    host.has_sun = true;
+    host.sun_direction = glm::normalize(glm::vec3(0.3F, -1, 0.4F));
+    host.ambient = glm::vec3(0.1F);
+    host.global = {{.sigma_s = {0.02F, 0.03F, 0.05F}, .anisotropy = 0.5F}};
+    host.local = {{.box = true, .center = {0, 0, -8}, .half_extent = {20, 20, 3}, .sigma_s = glm::vec3(0.05F)}};
+    host.lights = {point_light({3, 4, -9}, 10)};
+    for (const glm::ivec2 size : low_resolution_sizes) {
+        host.size = size;
+        s.resolution = volumetrics::Resolution::full;
+        const Frame full = host.render(s);
+        for (const auto resolution : {volumetrics::Resolution::half, volumetrics::Resolution::quarter}) {
+            s.resolution = resolution;
+            const Frame low = host.render(s);
+            const double tolerance = resolution == volumetrics::Resolution::half ? 0.02 : 0.05;
+            EXPECT_LT(largest_difference(low.scattering, full.scattering), tolerance) << size.x << " px";
+            EXPECT_LT(largest_difference(low.transmittance, full.transmittance), 5e-3) << size.x << " px";
+        }
+    }
 }
 
 TEST_F(VolumetricsBillboards, FadeTakesHalfItsLengthOfMedium) {
@@ -223,6 +321,7 @@ TEST_F(VolumetricsBillboards, FiniteAtTheExtremes) {
     s.billboard_fade = 0.5F;
     for (const float sigma : {1e-6F, 1e4F})
         for (const float y : {0.0F, -1e6F}) {
+            if (sigma == 1e4F) reconstruct_all(s);
             host.eye = {0, y, 0};
             host.global = {{.sigma_s = glm::vec3(sigma), .anisotropy = 0.999F},
                            {.sigma_s = glm::vec3(sigma, 0, sigma), .height = true, .falloff = 1}};
@@ -249,6 +348,16 @@ TEST_F(VolumetricsBillboards, PassesAndWork) {
     // Of sheets behind a wall nothing is shaded.
     host.view_depth = [](int, int) { return 0.2F; };
     EXPECT_EQ(host.render(s).work.at("volumetrics/billboards")[int(gl::Work::shadow_lookups)], 64U);
+    // A quarter of the pixels; sheets behind the wall are found empty.
+    s.resolution = volumetrics::Resolution::half;
+    s.filter = volumetrics::Filter::gaussian1;
+    s.temporal = volumetrics::Temporal::accumulate;
+    const Frame half = host.render(s);
+    EXPECT_EQ(half.work.at("volumetrics/billboards")[int(gl::Work::shadow_lookups)], 16U);
+    EXPECT_THAT(half.live_passes, ElementsAre("volumetrics/depth_downsample", "volumetrics/billboards",
+                                              "volumetrics/billboards_resolve", "volumetrics/temporal",
+                                              "volumetrics/filter_horizontal", "volumetrics/filter_vertical",
+                                              "volumetrics/upsample"));
     host.global.clear();
     EXPECT_EQ(host.render(s).persistent_bytes, 0U);
 }

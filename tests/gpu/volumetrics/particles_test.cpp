@@ -3,8 +3,10 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <utility>
 
 #include "tests/gpu/support/gl_test.h"
+#include "tests/gpu/support/low_resolution.h"
 #include "tests/gpu/support/volumetrics_host.h"
 
 namespace tyndall::test {
@@ -178,6 +180,61 @@ TEST_F(VolumetricsParticles, TheyStayWhereTheyAreWhenTheEyeMoves) {
     EXPECT_GT(here, 0);
 }
 
+TEST_F(VolumetricsParticles, LowerResolutionIsTheSameWhereDiscsAreWide) {
+    sunlight();
+    box_in_view(0.02F, 0.02F);
+    host.global = {{.sigma_s = {0.01F, 0.02F, 0.03F}}};
+    s.particle_local_count = 256;  // 2 m wide, a fourth of the picture
+    s.particle_count = 512;
+    host.vertical_fov = 0.1F;
+    for (const glm::ivec2 size : low_resolution_sizes) {
+        host.size = size;
+        s.resolution = volumetrics::Resolution::full;
+        const Frame full = host.render(s);
+        for (const auto resolution : {volumetrics::Resolution::half, volumetrics::Resolution::quarter}) {
+            s.resolution = resolution;
+            const Frame low = host.render(s);
+            const double tolerance = resolution == volumetrics::Resolution::half ? 0.04 : 0.1;
+            EXPECT_LT(largest_difference(low.scattering, full.scattering), tolerance) << size.x << " px";
+            EXPECT_LT(largest_difference(low.transmittance, full.transmittance), tolerance) << size.x << " px";
+        }
+    }
+}
+
+TEST_F(VolumetricsParticles, MeanOverFramesIsOfMoreParticlesThanOneFrameHas) {
+    sunlight();
+    s.light_transmittance = false;
+    s.particle_local_count = 512;
+    box_in_view(0.02F, 0.02F);
+    s.noise = volumetrics::Noise::bayer;
+    const glm::dvec2 one = mean_and_deviation(host.render(s).transmittance);
+    const auto last_of = [&](volumetrics::NoiseTime time) {
+        const volumetrics::Temporal temporal = std::exchange(s.temporal, volumetrics::Temporal::off);
+        (void)host.render(s);  // forgets what was before
+        s.temporal = temporal;
+        s.noise_time = time;
+        Frame frame;
+        for (host.frame_index = 0; host.frame_index < 12; ++host.frame_index) frame = host.render(s);
+        return mean_and_deviation(frame.transmittance).y;
+    };
+    s.temporal = volumetrics::Temporal::accumulate;
+    s.temporal_clip = s.temporal_reject = false;
+    EXPECT_LT(last_of(volumetrics::NoiseTime::golden_ratio), 0.4 * one.y);
+    EXPECT_NEAR(last_of(volumetrics::NoiseTime::fixed), one.y, 0.05 * one.y) << "they stay where they are";
+    s.temporal = volumetrics::Temporal::off;
+    EXPECT_NEAR(last_of(volumetrics::NoiseTime::golden_ratio), one.y, 1e-3 * one.y) << "nothing would average them";
+}
+
+TEST_F(VolumetricsParticles, NoFilterBlursThem) {
+    sunlight();
+    box_in_view(0.2F, 0);
+    const Frame plain = host.render(s);
+    s.filter = volumetrics::Filter::gaussian15;
+    const Frame frame = host.render(s);
+    EXPECT_EQ(frame.scattering.pixels, plain.scattering.pixels);
+    EXPECT_EQ(frame.skipped.at("volumetrics/filter_horizontal"), "pixels sample nothing");
+}
+
 TEST_F(VolumetricsParticles, LightIsLinearAndWithoutLightThereIsNone) {
     host.global = {{.sigma_s = glm::vec3(0.05F), .anisotropy = 0.4F}};
     host.local = {{.center = {0, 0, -6}, .half_extent = {2, 2, 2}, .sigma_s = glm::vec3(0.3F)}};
@@ -203,9 +260,10 @@ TEST_F(VolumetricsParticles, FiniteAtTheExtremes) {
     host.sun_illuminance = glm::vec3(1e8F);
     host.ambient = glm::vec3(1e8F);
     host.lights = {point_light({0, 0, 0}, 1e8F, 100, 0)};
-    s.particle_count = 512;
+    s.particle_count = s.particle_local_count = 512;
     for (const float sigma : {1e-6F, 1e4F})
         for (const float y : {0.0F, -1e6F}) {
+            if (sigma == 1e4F) reconstruct_all(s);
             host.eye = {0, y, 0};
             host.global = {{.sigma_s = glm::vec3(sigma), .anisotropy = 0.999F},
                            {.sigma_s = glm::vec3(sigma, 0, sigma), .height = true, .falloff = 1}};

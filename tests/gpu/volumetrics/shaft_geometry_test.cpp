@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "tests/gpu/support/gl_test.h"
+#include "tests/gpu/support/low_resolution.h"
 #include "tests/gpu/support/volumetrics_host.h"
 #include "tests/unit/shader_lib/quadrature.h"
 
@@ -281,11 +282,68 @@ TEST_F(VolumetricsShaftLamps, ShadowsConvergeWithTheParts) {
     EXPECT_LE(many, 0.03);
 }
 
+TEST_F(VolumetricsShaftLamps, MeanOverFramesIsTheShadowOfEachPart) {
+    host.shadows = 2;
+    host.lights = {point_light({0.5F, 1, -3}, 1000, 30)};
+    settings.shaft_lamp_parts = 4;
+    const double fixed = lamp_error();
+    settings.noise = volumetrics::Noise::bayer;
+    settings.noise_time = volumetrics::NoiseTime::golden_ratio;
+    settings.temporal = volumetrics::Temporal::accumulate;
+    settings.temporal_clip = settings.temporal_reject = false;
+    for (; host.frame_index < 33; ++host.frame_index) (void)host.render(settings);
+    EXPECT_LE(lamp_error(), 0.3 * fixed);
+}
+
+TEST_F(VolumetricsShaftLamps, TheFilterTakesTheLampsVisibilityAlone) {
+    host.has_sun = true;
+    host.shadows = 3;  // of the sun
+    host.eye = {2, 1, 0};
+    host.sun_illuminance = glm::vec3(100);
+    host.lights = {point_light({1, 2, -6}, 100, 6)};
+    host.lights[0].cone_shadow.z = -1;  // it casts none
+    settings.noise = volumetrics::Noise::white;
+    const Image sharp = host.render(settings).scattering;
+    settings.filter = volumetrics::Filter::gaussian15;
+    const Frame apart = host.render(settings);
+    EXPECT_LT(largest_difference(apart.scattering, sharp), 3e-3) << "the lamp is seen from everywhere";
+    settings.reconstruct = volumetrics::Reconstruct::light;
+    EXPECT_GT(largest_difference(host.render(settings).scattering, sharp), 0.1) << "edges of the sun's shafts";
+    host.lights.clear();
+    const Frame none = host.render(settings);
+    EXPECT_EQ(none.skipped.at("volumetrics/filter_vertical"), "pixels sample nothing");
+    EXPECT_EQ(none.skipped.at("volumetrics/relight"), "no lamps");
+}
+
+TEST_F(VolumetricsShaftLamps, LowerResolutionIsTheSameWhereLightIsSmooth) {
+    host.has_sun = true;
+    host.vertical_fov = 0.1F;
+    host.view_depth = [](int, int) { return 12.0F; };
+    host.lights = {point_light({3, 4, -9}, 100, 30)};
+    host.lights[0].cone_shadow.z = -1;
+    for (const int shadows : {0, 3}) {  // the sun everywhere or, from here, nowhere
+        host.shadows = shadows;
+        host.eye = {-9, 0, 2};
+        for (const glm::ivec2 size : low_resolution_sizes) {
+            host.size = size;
+            settings.resolution = volumetrics::Resolution::full;
+            const Image full = host.render(settings).scattering;
+            for (const auto resolution : {volumetrics::Resolution::half, volumetrics::Resolution::quarter}) {
+                settings.resolution = resolution;
+                const double tolerance = resolution == volumetrics::Resolution::half ? 0.03 : 0.06;
+                EXPECT_LT(largest_difference(host.render(settings).scattering, full), tolerance) << size.x << " px";
+            }
+        }
+    }
+}
+
 TEST_F(VolumetricsShaftGeometry, ExtremesStayFinite) {
+    host.lights = {point_light({1e5F, 3, -1e5F}, 1e8F, 100, 0)};
     for (const float distance : {1.0F, 1e5F})
         for (const float sigma : {1e-9F, 1e3F})
             for (const glm::vec3 sun :
                  {glm::vec3(0, -1, 0), glm::vec3(0, 0, -1), glm::vec3(0, 1e-3F, 1), glm::vec3(0, 1, 0)}) {
+                if (sigma == 1e3F) reconstruct_all(settings);
                 settings.max_distance = distance;
                 settings.shaft_grid = 16;
                 host.sun_direction = glm::normalize(sun);
