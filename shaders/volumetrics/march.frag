@@ -5,7 +5,8 @@
 // visibility are sampled, once a segment, at an offset that differs from pixel to pixel.
 //
 // VISIBILITY: the unshadowed light of sun and lamps, without noise, and the visible share of it are stored apart
-// (relight.frag), so that only the latter is filtered. Local media are then sampled slice by slice of the froxels.
+// (relight.frag), so that only the latter is filtered. Local media are then sampled in each run of
+// froxel slices in which they hardly change.
 #ifndef VISIBILITY
 #define VISIBILITY 0
 #endif
@@ -13,7 +14,9 @@
 #define LAMPS_APART (VISIBILITY == 1 && LAMPS == 2)
 
 #include "shaders/volumetrics/froxel_depths.glsl"
+#include "shaders/volumetrics/froxel_runs.glsl"
 #include "shaders/volumetrics/noise_offset.glsl"
+#include "shaders/volumetrics/parted.glsl"
 #include "shaders/volumetrics/segment_light.glsl"
 #include "shaders/lib/pack.glsl"
 
@@ -24,6 +27,9 @@ layout(binding = 2) uniform sampler3D froxel_extinction;  // rgb sigma_t
 #endif
 #if LOCAL_MEDIA == 2
 layout(binding = 3) uniform sampler3D froxel_emission;
+#endif
+#if VISIBILITY && LOCAL_MEDIA
+layout(binding = 4) uniform usampler2D froxel_runs;
 #endif
 
 layout(location = 0) flat in vec3 ambient;
@@ -46,11 +52,10 @@ layout(location = LAMPS_LOCATION + 1) out vec4 out_lamps_share;
 // Half of the smallest half-float number: a transmittance of this is stored as 0, and nothing behind it shows.
 const float OPAQUE = 2.98e-8;
 
-// Adds the local media at a distance t to a segment of the global ones; returns their sigma_t.
-vec3 add_local_media(Ray ray, float t, float path_length, inout Medium m, inout vec3 sigma_s) {
+// Adds the local media at a place w of the froxels to a segment of the global ones; returns their sigma_t.
+vec3 add_local_media(Ray ray, float w, float path_length, inout Medium m, inout vec3 sigma_s) {
     vec3 sigma_t = vec3(0.0);
 #if LOCAL_MEDIA
-    float w = froxel_w(t * ray.forward_cosine);
     if (w > 1.0) return sigma_t;
     vec3 uvw = vec3(ray.uv, w);
     count_work(WORK_TEXTURE_FETCHES, 1u + uint(LOCAL_MEDIA));
@@ -67,23 +72,8 @@ vec3 add_local_media(Ray ray, float t, float path_length, inout Medium m, inout 
 }
 
 #if VISIBILITY
-struct Parted {
-    vec3 visible;
-    vec3 whole;  // unshadowed
-};
 Parted sun_light = Parted(vec3(0.0), vec3(0.0));
 Parted lamp_light = Parted(vec3(0.0), vec3(0.0));
-
-// Visible share of each channel, that of the mean in a channel without light; and its weight, 0 where there is no light.
-vec4 visible_share(Parted light) {
-    const float LEAST = 1.0e-7;
-    vec3 whole = min(light.whole, 1.0e30);
-    vec3 visible = min(light.visible, whole);
-    float mean = mean_channel(whole);
-    if (!(mean > LEAST)) return vec4(0.0);
-    vec3 share = mix(visible / max(whole, LEAST), vec3(mean_channel(visible) / mean), lessThan(whole, vec3(LEAST)));
-    return round_to_half(vec4(clamp(share, 0.0, 1.0), 1.0));
-}
 
 void add_lamps(Ray ray, Segment segment, vec3 transmittance) {
 #if LAMPS == 2
@@ -95,81 +85,82 @@ void add_lamps(Ray ray, Segment segment, vec3 transmittance) {
 #endif
 
 #if VISIBILITY && LOCAL_MEDIA
-const int MAX_PARTS = 64;
+const int MAX_PARTS = 64;  // of a segment that are told apart for the place of its visibility
+FroxelRun run = FroxelRun(0, 0, 0.0, false, 0, -1, uvec2(0u));
 
-// The slices of the froxels that a segment passes, from place to place in their volume.
-struct Parts {
-    float w_begin;
-    float w_end;
-    int in_froxels;
-    int count;  // the last one may lie behind the froxels
-    float begin;
-    float end;
-};
+#if HAS_SUN
+Extinction local_sun_front = Extinction(0.0);  // optical depth of the local media between the sun and the place reached
 
-Parts parts_of(Ray ray, float a, float b) {
-    float w_begin = froxel_w(a * ray.forward_cosine);
-    float w_end = min(froxel_w(b * ray.forward_cosine), 1.0);
-    float slices = max(w_end - w_begin, 0.0) * float(textureSize(froxel_scattering, 0).z);
-    int in_froxels = min(int(ceil(slices)), MAX_PARTS - 1);
-    bool leaves = b * ray.forward_cosine > froxel_far();
-    return Parts(w_begin, w_end, in_froxels, max(in_froxels + int(leaves), 1), a, b);
+// As sun_segment, through local media too.
+SunSegment sun_part(Ray ray, float begin, float end, Optics optics, inout Extinction front) {
+#if SUN_VOLUME
+    Extinction back = to_extinction(sun_optical_depth(ray.origin.y + ray.direction.y * end, -sun_direction()));
+    Extinction local_back = to_extinction(local_sun_optical_depth(ray.origin + ray.direction * end));
+    SunSegment sun = sun_between(optics.depth, front + local_sun_front, back + local_back, end - begin);
+    front = back;
+    local_sun_front = local_back;
+    return sun;
+#else
+    return sun_segment(ray, begin, end, optics, front);
+#endif
 }
+#endif
 
-// Where part i ends, from 1 on; 0: where the first one begins.
-float part_end(Ray ray, Parts parts, int i) {
-    if (i == 0) return parts.begin;
-    if (i == parts.count) return parts.end;
-    float w = mix(parts.w_begin, parts.w_end, float(i) / float(parts.in_froxels));
-    return clamp(froxel_view_depth(w) / ray.forward_cosine, parts.begin, parts.end);
-}
-
-// Unshadowed light without noise: a segment in parts as long as the froxel slices, of each its own medium and sun. Lamps see
-// the mean medium of the segment.
+// Unshadowed light without noise: a segment in parts of one run of froxel slices, of each its own medium and sun. Lamps
+// see the mean medium of the segment.
 void march_segment(Ray ray, float a, float b, float offset, inout Extinction sun_front, inout March march) {
-    Parts parts = parts_of(ray, a, b);
     Segment segment = Segment(a, b, offset, 0.0, vec3(0.0), vec3(0.0));
     float scattering = 0.0;
     float anisotropy = 0.0;
     Extinction transmittance = march.transmittance;
     vec3 sun = vec3(0.0);
     float gathered[MAX_PARTS];  // sunlight up to the end of each part
+    float ends[MAX_PARTS];
+    float falls[MAX_PARTS];  // of what a part gathers a metre, by exp(-fall) from its begin to its end
+    int last = -1;
     float begin = a;
-    for (int i = 1; i <= parts.count; ++i) {
-        float end = part_end(ray, parts, i);
+    do {
+        while (run.distance_end <= begin) next_froxel_run(froxel_runs, ray, run);
+        float end = min(run.distance_end, b);
         float path_length = end - begin;
-        float middle = 0.5 * (begin + end);
+        Segment part = Segment(begin, end, offset, 0.0, volumetrics.homogeneous_sigma_s.rgb,
+                               volumetrics.homogeneous_sigma_t.rgb);
         Medium m = global_medium(ray.origin.y + ray.direction.y * begin, ray.direction.y, path_length);
         count_work(WORK_MEDIUM_SAMPLES, 1u);
-        vec3 sigma_s = volumetrics.homogeneous_sigma_s.rgb;
-        vec3 sigma_t = volumetrics.homogeneous_sigma_t.rgb;
-        sigma_t += add_local_media(ray, middle, path_length, m, sigma_s);
+        if (run.in_media) {
+            float w = froxel_run_w(run, 0.5 * (begin + end) * ray.forward_cosine);
+            part.sigma_t += add_local_media(ray, w, path_length, m, part.sigma_s);
+        }
         Optics optics = medium_optics(m, path_length);
         march.radiance += transmittance * ((m.sigma_s * ambient + m.emission) * optics.effective_length);
 #if HAS_SUN
-        SunSegment part = sun_segment(ray, begin, end, optics, sun_front);
-        sun += transmittance * sun_scattering(ray, m, part.effective_length) *
-               exp(-local_sun_optical_depth(ray.origin + ray.direction * middle));
-        gathered[i - 1] = mean_channel(min(sun, 1.0e30));
+        SunSegment light = sun_part(ray, begin, end, optics, sun_front);
+        sun += transmittance * sun_scattering(ray, m, light.effective_length);
+        last = min(last + 1, MAX_PARTS - 1);
+        gathered[last] = mean_channel(min(sun, 1.0e30));
+        ends[last] = end;
+        vec3 behind = part.sigma_s + height_sigma_s(ray.origin.y + ray.direction.y * end);
+        vec3 front = part.sigma_s + height_sigma_s(ray.origin.y + ray.direction.y * begin);
+        falls[last] = light.x + log(max(mean_channel(front), 1.0e-30) / max(mean_channel(behind), 1.0e-30));
 #endif
         float share = path_length / max(b - a, 1.0e-30);
-        segment.sigma_s += share * sigma_s;
-        segment.sigma_t += share * sigma_t;
+        segment.sigma_s += share * part.sigma_s;
+        segment.sigma_t += share * part.sigma_t;
         float particles = share * mean_channel(particle_sigma_s(m));
         scattering += particles;
         anisotropy += particles * m.anisotropy;
         transmittance *= optics.transmittance;
         begin = end;
-    }
+    } while (begin < b);
     segment.anisotropy = anisotropy / max(scattering, 1.0e-30);
 #if HAS_SUN
     // Visibility where the share `offset` of the sunlight has been gathered.
     int found = 0;
-    float target = offset * gathered[parts.count - 1];
-    while (found + 1 < parts.count && gathered[found] < target) ++found;
+    float target = offset * gathered[last];
+    while (found < last && gathered[found] < target) ++found;
     float before = found == 0 ? 0.0 : gathered[found - 1];
     float place = clamp((target - before) / max(gathered[found] - before, 1.0e-30), 0.0, 1.0);
-    float t = mix(part_end(ray, parts, found), part_end(ray, parts, found + 1), place);
+    float t = mix(found == 0 ? a : ends[found - 1], ends[found], equal_transmittance(place, falls[found]));
     count_work(WORK_SHADOW_LOOKUPS, 1u);
     sun_light.visible += sun_visibility(visibility_point(ray, t), t * ray.forward_cosine) * sun;
     sun_light.whole += sun;
@@ -184,7 +175,10 @@ void march_segment(Ray ray, float a, float b, float offset, inout Extinction sun
     count_work(WORK_MEDIUM_SAMPLES, 1u);
     vec3 constant_sigma_s = volumetrics.homogeneous_sigma_s.rgb;
     vec3 constant_sigma_t = volumetrics.homogeneous_sigma_t.rgb;
-    constant_sigma_t += add_local_media(ray, a + offset * path_length, path_length, m, constant_sigma_s);
+#if LOCAL_MEDIA
+    float w = froxel_w((a + offset * path_length) * ray.forward_cosine);
+    constant_sigma_t += add_local_media(ray, w, path_length, m, constant_sigma_s);
+#endif
 
     Optics optics = medium_optics(m, path_length);
     Segment segment = Segment(a, b, offset, m.anisotropy, constant_sigma_s, constant_sigma_t);
@@ -217,6 +211,12 @@ void main() {
     Extinction sun_front = Extinction(0.0);
 #if HAS_SUN
     sun_front = to_extinction(sun_optical_depth(ray.origin.y, -sun_direction()));
+#endif
+#if VISIBILITY && LOCAL_MEDIA
+    run = froxel_run_before(textureSize(froxel_scattering, 0).z);
+#if HAS_SUN
+    local_sun_front = to_extinction(local_sun_optical_depth(ray.origin + ray.direction * medium.x));
+#endif
 #endif
     float a = medium.x;
     float step_length = (end - a) * volumetrics.march.y;

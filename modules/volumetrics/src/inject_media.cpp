@@ -3,6 +3,7 @@
 #include "froxel_passes.h"
 #include "froxel_tiles.h"
 #include "passes.h"
+#include "relight.h"
 #include "shaders/shared/bindings.h"
 
 namespace tyndall::volumetrics {
@@ -13,6 +14,53 @@ const ProgramDesc program{.name = "volumetrics/inject_media",
                           .axes = {{"EMISSION", {0, 1}}, {"COUNT_WORK", {0, 1}}},
                           .valid = {}};
 const ProgramRegistry::Registration registration(program);
+
+const ProgramDesc runs_program{.name = "volumetrics/froxel_runs",
+                               .stages = {{GL_COMPUTE_SHADER, "shaders/volumetrics/froxel_runs.comp"}},
+                               .axes = {{"EMISSION", {0, 1}}, {"LIGHT_VOLUMES", {0, 1}}, {"COUNT_WORK", {0, 1}}},
+                               .valid = {}};
+const ProgramRegistry::Registration runs_registration(runs_program);
+
+/// For the march where it keeps visibility apart from light: see froxel_runs.comp.
+TextureRef add_froxel_runs(PassList& passes, const PassResources& resources, const Inputs& inputs,
+                           const FrameMedia& media, const FroxelMedia& froxels) {
+    const glm::ivec3 size = passes.desc(froxels.extinction).size;
+    const int words = (size.z + 31) / 32;
+    glm::ivec2 live(size.z, 0);
+    for (const IndexBox& box : media.local_froxels)
+        live = {std::min(live.x, box.lower.z), std::max(live.y, box.upper.z)};
+    TextureRef runs =
+        passes.create("volumetrics/froxel_runs", {.format = GL_RG32UI, .size = {size.x * words, size.y, 1}});
+    const gl::Program& shader =
+        resources.shaders.get(runs_program, {{"EMISSION", media.local_emission},
+                                             {"LIGHT_VOLUMES", resources.light_volumes.axis() & 1},
+                                             {"COUNT_WORK", inputs.count_work}});
+    passes.add(
+        "volumetrics/froxel_runs",
+        [&](PassBuilder& builder) {
+            builder.sample(froxels.columns);
+            builder.sample(froxels.scattering);
+            builder.sample(froxels.extinction);
+            builder.sample(froxels.emission);
+            builder.sample(resources.light_volumes.sun());
+            runs = builder.storage_write(runs);
+        },
+        [froxels, runs, size, live, &shader, &resources](const PassContext& context) {
+            const auto texture = [&](TextureRef ref) { return ref ? context.texture(ref) : gl::TextureView(); };
+            const BoundTextures bound{{texture(froxels.columns), resources.nearest},
+                                      {texture(froxels.scattering), resources.nearest},
+                                      {texture(froxels.extinction), resources.nearest},
+                                      {texture(froxels.emission), resources.nearest}};
+            glBindImageTexture(0, context.texture(runs).id, 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_RG32UI);
+            resources.uniforms.bind(GL_UNIFORM_BUFFER, BINDING_VOLUMETRICS);
+            resources.light_volumes.bind();
+            shader.set("live_slices", live);
+            shader.use();
+            const glm::ivec2 groups = (glm::ivec2(size) + 7) / 8;
+            glDispatchCompute(static_cast<GLuint>(groups.x), static_cast<GLuint>(groups.y), 1);
+        });
+    return runs;
+}
 
 }  // namespace
 
@@ -54,6 +102,11 @@ FroxelMedia add_inject_media(PassList& passes, const PassResources& resources, c
             constexpr GLuint row = 1024;  // more groups than one dimension takes
             glDispatchCompute(std::min(tiles, row), (tiles + row - 1) / row, 1);
         });
+    if (settings.technique != Technique::ray_march) return froxels;
+    if (const char* reason = reason_for_light(inputs, settings, media))
+        passes.skip("volumetrics/froxel_runs", reason);
+    else
+        froxels.runs = add_froxel_runs(passes, resources, inputs, media, froxels);
     return froxels;
 }
 

@@ -70,6 +70,7 @@ MarchedLight add_march(PassList& passes, const PassResources& resources, const I
             builder.sample(froxels.scattering);
             builder.sample(froxels.extinction);
             builder.sample(froxels.emission);
+            builder.sample(froxels.runs);
             resources.light_volumes.sample(builder);
             if (lit) {
                 for (TextureRef texture : inputs.light_textures) builder.sample(texture);
@@ -90,7 +91,8 @@ MarchedLight add_march(PassList& passes, const PassResources& resources, const I
             const BoundTextures bound{{texture(depth), resources.nearest},
                                       {texture(froxels.scattering), resources.linear},
                                       {texture(froxels.extinction), resources.linear},
-                                      {texture(froxels.emission), resources.linear}};
+                                      {texture(froxels.emission), resources.linear},
+                                      {texture(froxels.runs), resources.nearest}};
             resources.uniforms.bind(GL_UNIFORM_BUFFER, BINDING_VOLUMETRICS);
             resources.light_volumes.bind();
             resources.noise.bind();

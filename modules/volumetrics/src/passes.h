@@ -14,7 +14,7 @@ namespace tyndall::volumetrics {
 struct FroxelMedia {
     TextureRef columns;  ///< farthest view depth of each column, see froxel_columns.frag: nothing is injected behind it
     TextureRef scattering, extinction, emission;  ///< emission only where some local medium emits
-    TextureRef slices;  ///< R32UI: which slices of each column hold media, see froxel_slices.glsl; for reconstruct = visibility
+    TextureRef runs;  ///< RG32UI, see froxel_runs.comp; only for the march with visibility apart from light
 };
 
 class FroxelHistory;

@@ -23,7 +23,7 @@ namespace {
 const std::map<Technique, std::vector<const char*>>& passes_of() {
     static const std::map<Technique, std::vector<const char*>> names{
         {Technique::ray_march,
-         {"volumetrics/inject_media", "volumetrics/depth_downsample", "volumetrics/march",
+         {"volumetrics/inject_media", "volumetrics/froxel_runs", "volumetrics/depth_downsample", "volumetrics/march",
           "volumetrics/filter_horizontal", "volumetrics/filter_vertical", "volumetrics/relight",
           "volumetrics/upsample", "volumetrics/temporal"}},
         {Technique::froxel,
@@ -109,6 +109,8 @@ struct Volumetrics::Impl {
             local_froxels = add_inject_media(passes, resources, inputs, settings, media);
         else
             passes.skip("volumetrics/inject_media", "no local medium in view");
+        if (media.local.empty() && settings.technique == Technique::ray_march)
+            passes.skip("volumetrics/froxel_runs", "no local medium in view");
         return *local_froxels;
     }
 

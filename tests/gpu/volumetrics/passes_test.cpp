@@ -36,7 +36,8 @@ TEST_F(VolumetricsPasses, WithoutMediumNothingIsAddedOrHeld) {
         const Frame frame = host.render(Settings{});
         EXPECT_THAT(frame.live_passes, IsEmpty());
         EXPECT_THAT(frame.skipped,
-                    UnorderedElementsAre(Key("volumetrics/inject_media"), Key("volumetrics/depth_downsample"),
+                    UnorderedElementsAre(Key("volumetrics/inject_media"), Key("volumetrics/froxel_runs"),
+                                         Key("volumetrics/depth_downsample"),
                                          Key("volumetrics/march"), Key("volumetrics/filter_horizontal"),
                                          Key("volumetrics/filter_vertical"), Key("volumetrics/relight"),
                                          Key("volumetrics/upsample"), Key("volumetrics/temporal"),

@@ -167,6 +167,132 @@ TEST_F(VolumetricsRelight, LocalMediaAreSampledSliceBySlice) {
     EXPECT_LT(visibility, light);
 }
 
+// Media in a row, which the march reads run by run of froxel slices.
+class VolumetricsRuns : public VolumetricsRelight {
+  protected:
+    VolumetricsRuns() {
+        host.has_sun = true;
+        host.sun_direction = glm::normalize(glm::vec3(0.3F, -0.5F, 0.4F));
+        host.sun_illuminance = {100, 80, 30};
+        host.ambient = {0.2F, 0.3F, 0.5F};
+        host.view_depth = [](int, int) { return 20.0F; };
+    }
+    static LocalMedium box(glm::vec3 center, glm::vec3 half_extent, float sigma) {
+        return {.box = true,
+                .center = center,
+                .half_extent = half_extent,
+                .sigma_s = glm::vec3(0.8F * sigma),
+                .sigma_a = glm::vec3(0.2F * sigma)};
+    }
+    static Settings coarse(int steps) {
+        Settings settings = filtered(Reconstruct::visibility);
+        settings.steps = steps;
+        settings.froxel_distribution = volumetrics::DepthDistribution::linear;
+        settings.froxel_far = 40;
+        return settings;
+    }
+    static Settings fine(const Settings& like) {
+        Settings settings = like;
+        settings.steps = 512;
+        settings.noise = volumetrics::Noise::none;
+        settings.filter = Filter::none;
+        settings.reconstruct = Reconstruct::light;
+        return settings;
+    }
+    /// Medium samples a pixel.
+    double samples(const Settings& settings) {
+        host.count_work = true;
+        const auto work = host.render(settings).work.at("volumetrics/march");
+        return double(work[int(gl::Work::medium_samples)]) / (host.size.x * host.size.y);
+    }
+};
+
+TEST_F(VolumetricsRuns, MediumThatFillsAllIsTheClosedFormInAnyNumberOfSteps) {
+    host.local = {box(glm::vec3(0), glm::vec3(1000), 0.05F)};
+    host.local[0].anisotropy = 0.3F;
+    for (const int steps : {1, 3, 8}) {
+        Settings settings = coarse(steps);
+        settings.light_transmittance = false;
+        const Frame frame = host.render(settings);
+        for (int y = 0; y < 16; ++y)
+            for (int x = 0; x < 24; ++x) {
+                const glm::vec3 ray = host.ray(x, 15 - y);
+                const double transmittance = std::exp(-0.08 * 20 / -ray.z);
+                const double phase = phase_hg(0.3, -glm::dot(host.sun_direction, ray));
+                const double expected = (0.2 + 100 * phase) * 0.06 / 0.08 * (1 - transmittance);
+                EXPECT_NEAR(frame.scattering.at(x, y)[0], expected, 3e-3 * expected);
+                EXPECT_NEAR(frame.transmittance.at(x, y)[0], transmittance, 1e-3);
+            }
+    }
+}
+
+TEST_F(VolumetricsRuns, EachMediumIsThatOfTheFineMarch) {
+    const float slice = 39.9F / 64;  // the froxels begin at the near plane, 0.1 m
+    LocalMedium soft = box({0.5F, 0, 0}, {3, 3, 3}, 0.3F);
+    soft.softness = 1;
+    const std::vector<std::vector<LocalMedium>> cases{
+        {box({0, 0, -0.1F - 12.5F * slice}, {2, 1.5F, 0.4F * slice}, 0.4F)},    // in one slice
+        {box({-5, 1, -8}, {1.5F, 1.5F, 1.5F}, 0.2F)},                           // over the screen's border
+        {soft},                                                                 // round the camera
+        {box({0, 0, -5}, {9, 9, 1}, 0.3F), box({1, 0, -14}, {4, 4, 2}, 0.2F)},  // with a gap
+        {box({0, 0, -30}, {9, 9, 9}, 0.3F)},                                    // goes on behind the surface
+    };
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+        host.local = cases[i];
+        for (const bool attenuation : {false, true}) {
+            Settings settings = coarse(4);
+            settings.light_transmittance = attenuation;
+            const Frame expected = host.render(fine(settings));
+            const Frame frame = host.render(settings);
+            // What media leave of the sun is linear over a run: 4% in the worst pixel of the thin medium.
+            EXPECT_LE(largest(frame.scattering, expected.scattering), attenuation ? 0.05 : 0.02)
+                << i << attenuation;
+            EXPECT_LE(largest(frame.transmittance, expected.transmittance), 0.02) << i << attenuation;
+        }
+    }
+}
+
+TEST_F(VolumetricsRuns, VisibilityIsSampledWhereTheLightComesFrom) {
+    // All pixels see the same ray, in 64 places: their mean is the whole light.
+    host.size = {16, 16};
+    host.vertical_fov = 0.002F;
+    host.ambient = glm::vec3(0);
+    host.shadows = 1;
+    host.local = {box({0, 0, -5}, {9, 9, 1}, 0.3F), box({1, 0, -13}, {4, 4, 0.5F}, 0.4F)};
+    host.global = {{.sigma_s = glm::vec3(0.02F)},
+                   {.sigma_s = glm::vec3(0.1F), .height = true, .base = -3, .falloff = 3}};
+    const auto mean = [](const Image& image) {
+        double sum = 0;
+        for (const float v : image.pixels) sum += v;
+        return sum / static_cast<double>(image.pixels.size());
+    };
+    for (const bool attenuation : {false, true}) {
+        for (const int steps : {1, 2, 5}) {
+            Settings settings = coarse(steps);
+            settings.light_transmittance = attenuation;
+            const double expected = mean(host.render(fine(settings)).scattering);
+            EXPECT_NEAR(mean(host.render(settings).scattering), expected, 0.025 * expected) << steps << attenuation;
+        }
+    }
+}
+
+TEST_F(VolumetricsRuns, OnlySlicesInWhichMediaChangeCost) {
+    Settings settings = coarse(4);
+    settings.light_transmittance = false;
+    settings.froxel_distribution = volumetrics::DepthDistribution::exponential;
+    EXPECT_EQ(samples(settings), 4);
+    host.local = {box(glm::vec3(0), glm::vec3(1000), 0.05F)};
+    EXPECT_LE(samples(settings), 6);
+    host.local = {box({0, 0, -8}, glm::vec3(0.5F), 0.2F)};
+    const double one = samples(settings);
+    EXPECT_LE(one, 6);
+    host.local[0] = box(glm::vec3(0), glm::vec3(1000), 0.2F);
+    host.local[0].noise_scale = 0.5F;
+    host.local[0].noise_amount = 1;
+    EXPECT_GE(samples(settings), 4 * one);
+    EXPECT_LE(samples(settings), 64 + 4);
+}
+
 TEST_F(VolumetricsRelight, FrameSaysWhyLightIsFilteredWhole) {
     light_everything();
     const auto reason = [&](const Settings& settings) {
