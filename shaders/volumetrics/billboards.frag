@@ -6,9 +6,14 @@
 // et al. 2006), by the density at a point of the chord. Soft against depth: the slab ends at the surface, so a sheet has the
 // share of its medium that lies in front. Faded near the eye: density falls to 0 over the last `fade` metres.
 //
-// What it cannot do: light is that of one point of the sheet, so the edge of a shadow or of a lamp's glow is a step from
-// sheet to sheet that moves with the camera, and a lamp between two sheets is too dim or too bright; slabs that overlap
-// are blended as if the one with the farther middle lay behind; no medium at the eye.
+// Sampled at one point of each sheet: light, and the density of local media. Where that is differs from pixel to pixel
+// (noise_offset), so that filters and means over frames find the mean over the sheet. Optical depth and fade of global media
+// have no noise.
+//
+// What it cannot do: with noise none the point is the sheet's middle for all pixels, so that the edge of a shadow or of a
+// lamp's glow is a step from sheet to sheet that moves with the camera, and a lamp between two sheets is too dim or too
+// bright. All points of a sheet count alike, whatever of the sheet is before them; slabs that overlap are blended as if the
+// one with the farther middle lay behind; no medium at the eye.
 #include "shaders/interface/shadows.glsl"
 #include "shaders/shared/sprites.h"
 #include "shaders/volumetrics/lamps.glsl"

@@ -3,7 +3,7 @@
 // unshadowed, a ray that is lit but for the parts [a, b] in the shadow volume gathers
 //     F(surface) + sum over shadows of F(min(a, surface)) - F(min(b, surface)),
 // so each front face adds F and each back face takes it away. Blended additively; no depth test: what lies behind the
-// surface cancels, and what lies behind the eye has no fragment and F = 0.
+// surface cancels, and what lies behind the eye has no fragment and F = 0. Nothing is sampled: there is no noise.
 #include "shaders/volumetrics/shaft_sun.glsl"
 
 layout(binding = 1) uniform sampler2D depth_texture;
