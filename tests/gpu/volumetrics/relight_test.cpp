@@ -193,7 +193,7 @@ class VolumetricsRuns : public VolumetricsRelight {
     }
     static Settings fine(const Settings& like) {
         Settings settings = like;
-        settings.steps = 512;
+        settings.steps = 192;
         settings.noise = volumetrics::Noise::none;
         settings.filter = Filter::none;
         settings.reconstruct = Reconstruct::light;
