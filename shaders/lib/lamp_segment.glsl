@@ -179,6 +179,22 @@ LampSegment lamp_segment(LampRay ray, float t_begin, float t_end, float radius, 
     return segment;
 }
 
+// Where a share of the light has been gathered, as a share of the inverse square, both 0..1: each node's part of the light
+// (weight_i f(t_i) >= 0) is taken to be spread like the inverse square over its own piece of it, as wide as its weight
+// there. So points at even shares lie as densely as there is light, and one visibility for all of it is not biased.
+// Without light: the share itself.
+float lamp_segment_place(vec4 parts, float share) {
+    vec4 sums = vec4(parts.x, parts.x + parts.y, parts.x + parts.y + parts.z, dot(parts, vec4(1.0f)));
+    if (!(sums.w > 1.0e-30f && sums.w < 1.0e30f)) return share;
+    float target = share * sums.w;
+    vec3 done = vec3(target > sums.x ? 1.0f : 0.0f, target > sums.y ? 1.0f : 0.0f, target > sums.z ? 1.0f : 0.0f);
+    float begin = dot(done, vec3(0.17392742f, 0.32607258f, 0.32607258f));
+    float width = done.x == done.z ? 0.17392742f : 0.32607258f;
+    float part = done.z > 0.0f ? parts.w : done.y > 0.0f ? parts.z : done.x > 0.0f ? parts.y : parts.x;
+    float before = dot(done, vec3(parts.x, parts.y, parts.z));
+    return clamp(begin + width * (target - before) / max(part, 1.0e-30f), 0.0f, 1.0f);
+}
+
 // int attenuation dt over the segment [1/m].
 float lamp_segment_integral(LampSegment segment) {
     return dot(segment.weight, vec4(1.0f));

@@ -42,7 +42,7 @@ float lamp_visibility(uint index, GpuLight light, vec3 point) {
 struct Segment {
     float begin;  // distances along the ray, m
     float end;
-    float offset;  // 0..1, where visibility is sampled: the share of the inverse square gathered before it
+    float offset;  // 0..1, where visibility is sampled: the share of the light gathered before it
     float anisotropy;
     vec3 sigma_s;
     vec3 sigma_t;
@@ -207,8 +207,12 @@ vec3 lamp_over_segment(Ray ray, Segment segment, FoundLamp found, inout vec3 uns
     LampSegment rule = lamp_segment(lamp, reach.begin, reach.end, radius, lamp_inverse_range(light));
     vec4 cos_theta = lamp_segment_cos_theta(rule, lamp);
     vec3 sum = vec3(0.0);
-    for (int i = 0; i < 4; ++i)
-        sum += lamp_transport(ray, segment, found.index, light, rule.t[i], cos_theta[i]) * rule.weight[i];
+    vec4 parts;
+    for (int i = 0; i < 4; ++i) {
+        vec3 part = lamp_transport(ray, segment, found.index, light, rule.t[i], cos_theta[i]) * rule.weight[i];
+        parts[i] = mean_channel(part);
+        sum += part;
+    }
 
     if (is_spot(light)) {
         vec3 axis = light.direction_type.xyz;
@@ -218,11 +222,12 @@ vec3 lamp_over_segment(Ray ray, Segment segment, FoundLamp found, inout vec3 uns
                                             light.cone_shadow.xy);
     }
 
-    // Equi-angular (Kulla and Fajardo 2012): over all offsets the point is distributed as the inverse square.
+    // Over all offsets the point is distributed as the light is: in the inverse square (Kulla and Fajardo 2012), and in
+    // what else varies by its four nodes.
     float a = reach.begin - lamp.t_closest;
     float span = reach.end - reach.begin;
     LampIntegral integral = lamp_integral(a, a + span, span, lamp.h, radius);
-    float advance = clamp(lamp_advance(integral, segment.offset * integral.total), 0.0, span);
+    float advance = clamp(lamp_advance(integral, lamp_segment_place(parts, segment.offset) * integral.total), 0.0, span);
     float visible = lamp_visibility(found.index, light, visibility_point(ray, reach.begin + advance));
     unshadowed += light.intensity_radius.rgb * sum;
     return visible * light.intensity_radius.rgb * sum;

@@ -35,6 +35,7 @@ uniform float least_weight;  // W
 uniform float most_frames;   // n + 1 at most
 // The same, at least 1, as sun, media and lamps are known to have changed since the frame before.
 uniform float known_frames;
+uniform float travel;  // of the camera, over that after which nothing is known of light in front of what is far off
 uniform int changed_lamp_count;
 uniform vec4 changed_lamps[16];  // in whose range: xyz view space (m), w range (m)
 uniform float changed_frames[16];
@@ -95,8 +96,10 @@ vec3 place_before(float inverse_depth) {
     return vec3(before / screen_per_texel, 1.0 / clip.w);
 }
 
+// The camera's travel moves light in front of a surface at distance z against it by an angle that grows with 1 / z. Even
+// in front of the sky that light is some 10 m off: travel (1 / z + 1 / 10 m).
 float frames_known(float inverse_depth) {
-    float frames = known_frames;
+    float frames = max(min(known_frames, 1.0 / max(travel * (1.0 + 10.0 * inverse_depth), 1.0e-6)), 1.0);
     if (changed_lamp_count == 0) return frames;
     vec3 ray = normalize(view_ray(gl_FragCoord.xy * screen_size_of_texel()));
     float far = inverse_depth > 0.0 ? 1.0 / (inverse_depth * -ray.z) : 1.0e9;

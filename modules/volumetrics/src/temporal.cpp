@@ -24,8 +24,8 @@ const ProgramRegistry::Registration registration(program);
 
 /// Relative change of a global medium in one frame after which no mean is worth more than that frame.
 constexpr float medium_change = 0.05F;
-/// The same of the camera [m]: light in front of a surface is not reprojected with it.
-constexpr float camera_travel = 1.0F;
+/// The same of the camera [m], see temporal.frag.
+constexpr float camera_travel = 0.15F;
 /// Lamps that change in one frame, as many as temporal.frag has place for. The change of more is everywhere.
 constexpr std::size_t most_lamps = 16;
 /// Frames without any change; what is kept counts no more of them.
@@ -115,7 +115,6 @@ float TemporalHistory::known_frames() const {
     float change = 1 / many_frames;
     if (current_.has_sun)
         change = std::max(change, glm::distance(previous_.sun_direction, current_.sun_direction) / sun_turn);
-    change = std::max(change, glm::distance(previous_.eye, current_.eye) / camera_travel);
     for (std::size_t i = 0; i < current_.global.size(); ++i)
         change = std::max(change, largest_change(previous_.global[i], current_.global[i]) / medium_change);
     return std::max(1 / change, 1.0F);
@@ -133,6 +132,7 @@ void TemporalHistory::set_changes(const gl::Program& shader) const {
     }
     shader.set("changed_lamp_count", static_cast<int>(count));
     shader.set("known_frames", frames);
+    shader.set("travel", glm::distance(previous_.eye, current_.eye) / camera_travel);
 }
 
 TemporalMean add_temporal(PassList& passes, const PassResources& resources, const Inputs& at,
@@ -199,6 +199,7 @@ TemporalMean add_temporal(PassList& passes, const PassResources& resources, cons
             shader.set("most_frames", counted ? frames : many_frames);
             if (mode == Temporal::blend) {
                 shader.set("known_frames", many_frames);
+                shader.set("travel", 0.0F);
                 shader.set("changed_lamp_count", 0);
             } else {
                 history.set_changes(shader);

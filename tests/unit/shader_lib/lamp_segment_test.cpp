@@ -290,6 +290,55 @@ TEST(LampSegment, PhaseAlongTheSegment) {
     }
 }
 
+// Places at even shares of the light: as many lie before any point of the segment as light does. The places that know the
+// inverse square alone are for comparison.
+TEST(LampSegment, PlacesLieAsDenselyAsThereIsLight) {
+    std::mt19937 random(29);
+    Error placed, equi_angular;
+    for (int i = 0; i < 200; ++i) {
+        const Case c = fog_case(random);
+        const double sigma_t = 3 / c.b;
+        const auto phase = [&](double t) {
+            const double u = t - c.lamp.t_closest;
+            return 0.64 / std::pow(1.36 + 1.2 * u / std::hypot(u, c.lamp.h), 1.5);
+        };
+        const auto light = [&](double t) { return phase(t) * std::exp(-sigma_t * t); };
+        const glsl::LampSegment s = c.lamp.segment(c.a, c.b);
+        glsl::vec4 parts;
+        for (int k = 0; k < 4; ++k) parts[k] = s.weight[k] * static_cast<float>(light(s.t[k]));
+        for (const double share : {0.1, 0.3, 0.5, 0.7, 0.9}) {
+            // By halving: where that share of the inverse square lies, and what share of the light does before it.
+            const auto light_before = [&](double inverse_square_share) {
+                double low = c.a, high = c.b;
+                for (int k = 0; k < 40; ++k) {
+                    const double t = 0.5 * (low + high);
+                    (c.lamp.integral(c.a, t) < inverse_square_share * c.lamp.integral(c.a, c.b) ? low : high) = t;
+                }
+                return c.lamp.integral(c.a, low, light) / c.lamp.integral(c.a, c.b, light);
+            };
+            placed.add(light_before(glsl::lamp_segment_place(parts, static_cast<float>(share))) - share);
+            equi_angular.add(light_before(share) - share);
+        }
+    }
+    EXPECT_LT(placed.rms(), 0.09);
+    EXPECT_LT(placed.rms(), 0.25 * equi_angular.rms());
+}
+
+TEST(LampSegment, PlacesRiseFromEndToEnd) {
+    for (const glsl::vec4 parts : {glsl::vec4(1, 2, 3, 4), glsl::vec4(0, 1, 0, 0), glsl::vec4(0, 0, 0, 5),
+                                   glsl::vec4(1e-20F, 0, 0, 1), glsl::vec4(0)}) {
+        float before = 0;
+        for (int i = 0; i <= 100; ++i) {
+            const float place = glsl::lamp_segment_place(parts, static_cast<float>(i) / 100);
+            EXPECT_GE(place, before);
+            EXPECT_LE(place, 1.0F);
+            before = place;
+        }
+    }
+    EXPECT_EQ(glsl::lamp_segment_place(glsl::vec4(0), 0.3F), 0.3F);
+    EXPECT_GT(glsl::lamp_segment_place(glsl::vec4(0, 0, 0, 5), 0.01F), 1 - 0.17392742F);
+}
+
 // Forward scattering: the lamp lies ahead, its light travels towards the eye.
 TEST(LampSegment, CosThetaIsForwardBeforeTheLamp) {
     glsl::LampRay ray;
