@@ -276,6 +276,27 @@ TEST_F(VolumetricsRuns, VisibilityIsSampledWhereTheLightComesFrom) {
     }
 }
 
+TEST_F(VolumetricsRuns, VisibilityFollowsTheDensityOfAHeightMedium) {
+    // Rays that rise out of a height medium, sampled once: most of the light comes from near the eye.
+    host.size = {32, 32};
+    host.vertical_fov = 1.2F;
+    host.ambient = glm::vec3(0);
+    host.shadows = 1;
+    host.local = {box({0, -50, -10}, glm::vec3(0.5F), 0.1F)};
+    host.local[0].half_extent.y = 46;
+    host.global = {{.sigma_s = glm::vec3(0.05F), .height = true, .falloff = 1.5F}};
+    Settings settings = coarse(1);
+    settings.light_transmittance = false;
+    const Image expected = host.render(fine(settings)).scattering, image = host.render(settings).scattering;
+    double difference = 0, sum = 0;
+    for (int y = 0; y < 8; ++y)
+        for (int x = 0; x < 32; ++x) {
+            difference += image.at(x, y)[0] - expected.at(x, y)[0];
+            sum += expected.at(x, y)[0];
+        }
+    EXPECT_NEAR(difference / sum, 0, 0.02);
+}
+
 TEST_F(VolumetricsRuns, OnlySlicesInWhichMediaChangeCost) {
     Settings settings = coarse(4);
     settings.light_transmittance = false;
