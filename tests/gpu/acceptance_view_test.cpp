@@ -17,7 +17,7 @@ class AcceptanceView : public GlTest {
   protected:
     AcceptanceView() {
         builder_.ground({0, -1, 0}, 50);
-        builder_.box({0, 0, 4}, {0.2F, 3, 0.2F});  // 4 m before the eye
+        builder_.box({0, 0, 4}, {0.01F, 3, 0.2F});  // 4 m before the eye
         builder_.sun({-1, -2, -1}, glm::vec3(10000));
         Medium fog;
         fog.sigma_s = glm::vec3(0.02F);
@@ -29,7 +29,7 @@ class AcceptanceView : public GlTest {
         renderer_.prepare(builder_.finish());
     }
     Image draw() {
-        const View view = look_at({eye_x_, 0, 8}, {eye_x_, 0, 0}, 1.0F, 0.1F, 1.5F);
+        const View view = look_at({eye_x_, 0, 8}, {eye_x_, 0, 0}, 0.05F, 0.1F, 1.5F);
         renderer_.render(builder_.scene, view, size_, options_);
         return renderer_.read_layer();
     }
@@ -56,12 +56,12 @@ class AcceptanceView : public GlTest {
 TEST_F(AcceptanceView, RedAtFirstGreenWhileNothingChangesRedBehindWhatMovedAway) {
     EXPECT_EQ(share(draw(), red), 1);
     EXPECT_EQ(share(draw(), green), 1);
-    eye_x_ =
-        0.4F;  // the pole moves 0.4 / (2 * 3.8 * tan(0.5) * 1.5) = 6.4% of the width against what is far behind
+    // The pole moves 0.02 / (2 * 3.8 * tan(0.025) * 1.5) = 7.0% of the width against what is far behind.
+    eye_x_ = 0.02F;
     const Image moved = draw();
     const int y = size_.y / 4;  // above the horizon
     const auto column = [&](float u) { return moved.at(static_cast<int>(u * float(size_.x)), y); };
-    const float then = 0.5F, now = 0.5F - 0.4F / (2 * 3.8F * std::tan(0.5F) * 1.5F);
+    const float then = 0.5F, now = 0.5F - 0.02F / (2 * 3.8F * std::tan(0.025F) * 1.5F);
     EXPECT_LT(column(then)[1], 0.1F) << "it stood here";
     EXPECT_GT(column(now)[1], 0.9F) << "its own surface was seen before";
     EXPECT_GT(column(0.2F)[1], 0.9F) << "so was the sky";
@@ -80,7 +80,7 @@ TEST_F(AcceptanceView, TheDisplayShowsTheLayer) {
     options_.show_acceptance = true;
     options_.more_layers = {"color"};
     draw();
-    eye_x_ = 0.4F;
+    eye_x_ = 0.02F;
     const Image layer = draw(), display = renderer_.read_display();
     double most = 0;
     for (int y = 0; y < size_.y; ++y)

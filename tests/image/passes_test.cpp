@@ -59,9 +59,9 @@ class Passes : public ::testing::Test {
     TemporaryFolder folder_;
 };
 
-const std::vector<std::string> all_but_injection{"volumetrics/march", "volumetrics/filter_horizontal",
+const std::vector<std::string> all_but_injection{"volumetrics/march",           "volumetrics/filter_horizontal",
                                                  "volumetrics/filter_vertical", "volumetrics/relight",
-                                                 "volumetrics/composite"};
+                                                 "volumetrics/temporal",        "volumetrics/composite"};
 
 TEST_F(Passes, NoMediumIsBitIdenticalToVolumetricsOff) {
     const SceneSpec spec{.sun = true, .lamps = {lamp}};
@@ -116,15 +116,16 @@ TEST_F(Passes, LocalMediumIsInjectedOnlyInView) {
 }
 
 TEST_F(Passes, NoFilterNoFilterPasses) {
-    const Frame frame = draw({.sun = true, .media = global_medium}, {"--set", "filter=none"});
+    const Frame frame =
+        draw({.sun = true, .media = global_medium}, {"--set", "filter=none", "--set", "temporal=off"});
     EXPECT_THAT(with_prefix(frame, "volumetrics/"),
                 UnorderedElementsAreArray({"volumetrics/march", "volumetrics/composite"}));
 }
 
 TEST_F(Passes, LowResolutionTakesTwoPassesAndAFourthOfTheMarch) {
     const SceneSpec spec{.sun = true, .media = global_medium};
-    const Frame full = draw(spec, {"--set", "filter=none"});
-    const Frame half = draw(spec, {"--set", "filter=none", "--set", "resolution=half"});
+    const Frame full = draw(spec, {"--set", "filter=none", "--set", "temporal=off"});
+    const Frame half = draw(spec, {"--set", "filter=none", "--set", "temporal=off", "--set", "resolution=half"});
     EXPECT_THAT(with_prefix(half, "volumetrics/"),
                 UnorderedElementsAreArray({"volumetrics/depth_downsample", "volumetrics/march",
                                            "volumetrics/upsample", "volumetrics/composite"}));

@@ -8,24 +8,30 @@ namespace {
 
 constexpr const char* not_sampled = "pixels sample nothing";
 
+/// Pixels or particles stand elsewhere in each frame. Froxels have a history of their own.
+bool varies_in_time(Technique technique) {
+    return samples_noise(technique) || technique == Technique::particles;
+}
+
 /// Of shaft_geometry it is the shadows of lamps.
 bool is_sampled(const Settings& settings, const Inputs& inputs) {
-    return settings.technique != Technique::shaft_geometry || inputs.has_lamps;
+    return varies_in_time(settings.technique) &&
+           (settings.technique != Technique::shaft_geometry || inputs.has_lamps);
 }
 
 }  // namespace
 
-bool can_be_reconstructed(Technique technique) {
-    return samples_noise(technique) || technique == Technique::froxel || technique == Technique::particles;
+bool averages_frames(const Settings& settings) {
+    return settings.temporal != Temporal::off && varies_in_time(settings.technique);
 }
 
 bool reads_motion(const Settings& settings) {
-    return can_be_reconstructed(settings.technique) && settings.temporal != Temporal::off &&
-           settings.temporal != Temporal::blend;
+    return averages_frames(settings) && settings.temporal != Temporal::blend;
 }
 
 int resolution_factor(const Settings& settings) {
-    return !can_be_reconstructed(settings.technique) ? 1 : 1 << static_cast<int>(settings.resolution);
+    const bool any = varies_in_time(settings.technique) || settings.technique == Technique::froxel;
+    return any ? 1 << static_cast<int>(settings.resolution) : 1;
 }
 
 Outputs add_reconstruction(PassList& passes, const PassResources& resources, const Inputs& inputs,

@@ -13,14 +13,14 @@ struct MarchedLight;
                                           const Settings& settings);
 /// `inputs` are those of full resolution: their depth can hide what is drawn.
 [[nodiscard]] bool is_depth_buffer(const PassList& passes, const Inputs& inputs);
-/// The technique's samples are reconstructed.
-[[nodiscard]] bool can_be_reconstructed(Technique technique);
+/// A mean over frames is asked for, of a technique whose samples differ from frame to frame.
+[[nodiscard]] bool averages_frames(const Settings& settings);
 /// Pixels of the host along each side of one pixel of that: 1, 2 or 4.
 [[nodiscard]] int resolution_factor(const Settings& settings);
 
 /// Between samples and picture, each where settings ask for it:
 ///     temporal (before) -> spatial filter -> relight -> up-sampling -> temporal (after)
-/// The filter only where the technique's pixels sample at noise.
+/// The filter only where the technique's pixels sample at noise, temporal there and for particles.
 /// `sampled` is of the size of `low` (add_depth_downsample); the result is of the host's. Every texture of
 /// `sampled` goes the same way.
 [[nodiscard]] Outputs add_reconstruction(PassList& passes, const PassResources& resources, const Inputs& inputs,

@@ -246,7 +246,7 @@ Outputs Volumetrics::add_passes(PassList& passes, const Inputs& inputs, const Se
     const FrameMedia& media = impl_->media;
     impl_->count_work = inputs.count_work;
     if (!impl_->light_passes_added) add_light_passes(passes, inputs, settings);
-    if (settings.temporal == Temporal::off || media.empty() || !can_be_reconstructed(settings.technique))
+    if (media.empty() || !averages_frames(settings))
         impl_->temporal_history.release();
     if (!keeps_history(inputs, settings, media)) impl_->froxel_history.release();
     if (settings.technique == Technique::off || media.empty()) {

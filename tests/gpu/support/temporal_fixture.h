@@ -78,10 +78,10 @@ class VolumetricsTemporal : public GlTest {
         if (out.acceptance) passes.export_texture(out.acceptance);
         passes.compile();
         passes.execute(pool_);
-        const auto textures = passes.textures();
         const auto read = [&](TextureRef ref) {
-            return ref ? gl::read_texture(gl::TextureView(textures[ref.index].id, textures[ref.index].desc))
-                       : Image();
+            if (!ref) return Image();
+            const PassList::TextureInfo info = passes.info(ref);
+            return gl::read_texture(gl::TextureView(info.id, info.desc));
         };
         return {read(out.scattering), read(out.acceptance)};
     }

@@ -43,8 +43,9 @@ class VolumetricsFroxelHistory : public GlTest {
         host.sun_illuminance = glm::vec3(1000);
         host.shadows = 1;
     }
+    /// Between the rays of the pixels: what passes a lamp sees it with one visibility or another.
     void add_lamps(bool shadowed) {
-        host.lights = {point_light({1, 1.5F, -6}, 400, 30), point_light({-3, 0, -12}, 800, 30)};
+        host.lights = {point_light({1, 1.1F, -6}, 400, 30), point_light({-3, 0.7F, -12}, 800, 30)};
         host.lights[0].intensity_radius = {400, 100, 20, 0.01F};
         for (shared::GpuLight& light : host.lights) light.cone_shadow.z = shadowed ? 0.0F : -1.0F;
     }
@@ -67,7 +68,7 @@ class VolumetricsFroxelHistory : public GlTest {
         passes.export_texture(out.scattering);
         passes.compile();
         passes.execute(pool_);
-        const PassList::TextureInfo info = passes.textures()[out.scattering.index];
+        const PassList::TextureInfo info = passes.info(out.scattering);
         return gl::read_texture(gl::TextureView(info.id, info.desc));
     }
 

@@ -60,7 +60,11 @@ TEST_F(VolumetricsPasses, EachPassIsThereWhenItIsNeeded) {
     host.global = {fog};
     Settings settings;
     settings.filter = volumetrics::Filter::none;
+    settings.temporal = volumetrics::Temporal::off;
     EXPECT_THAT(host.render(settings).live_passes, ElementsAre("volumetrics/march"));
+    settings.temporal = volumetrics::Temporal::accumulate;
+    EXPECT_THAT(host.render(settings).live_passes, ElementsAre("volumetrics/march", "volumetrics/temporal"));
+    settings.temporal = volumetrics::Temporal::off;
     settings.filter = volumetrics::Filter::gaussian15;
     EXPECT_THAT(host.render(settings).live_passes,
                 ElementsAre("volumetrics/march", "volumetrics/filter_horizontal", "volumetrics/filter_vertical"));

@@ -362,10 +362,9 @@ TEST_F(VolumetricsResolution, FogOfTransparentsIsThatOfFullResolution) {
         passes.compile();
         TransientPool pool;
         passes.execute(pool);
-        const auto textures = passes.textures();
         std::vector<float> pixels;
         const auto add = [&](TextureRef ref, int layer) {
-            const auto& info = textures[ref.index];
+            const PassList::TextureInfo info = passes.info(ref);
             const Image image = gl::read_texture(gl::TextureView(info.id, info.desc), layer);
             pixels.insert(pixels.end(), image.pixels.begin(), image.pixels.end());
         };

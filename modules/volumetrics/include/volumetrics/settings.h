@@ -50,7 +50,7 @@ struct Settings {
     float phase_back_weight = 0.2f;
     Noise noise = Noise::bayer;
     int noise_size = 8;
-    NoiseTime noise_time = NoiseTime::fixed;
+    NoiseTime noise_time = NoiseTime::golden_ratio;
     SpatialKernel fast_space = SpatialKernel::gaussian1;
     TemporalKernel fast_time = TemporalKernel::ema;
     Filter filter = Filter::gaussian15;
@@ -62,7 +62,7 @@ struct Settings {
     Resolution resolution = Resolution::full;
     DepthChoice resolution_depth = DepthChoice::checkerboard;
     Upsample upsample = Upsample::bilateral;
-    Temporal temporal = Temporal::off;
+    Temporal temporal = Temporal::accumulate;
     TemporalPlace temporal_place = TemporalPlace::before;
     float temporal_weight = 0.1f;
     float temporal_scale = 16.0f;
