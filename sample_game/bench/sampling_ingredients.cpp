@@ -7,6 +7,7 @@
 #include "sample_game/bench/sampling.h"
 #include "sample_game/bench/svg_frames.h"
 #include "sample_game/bench/svg_plot.h"
+#include "sample_game/bench/techniques.h"
 
 namespace tyndall::bench {
 namespace {
@@ -33,7 +34,6 @@ const std::vector<Variant>& variants() {
         const Settings narrow{"filter=gaussian1", "filter_depth=plane"};
         const Settings moving{"noise_time=golden_ratio"}, slices{"noise_time=own"};
         const Settings history{"temporal=accumulate", "temporal_clip=false"};
-        constexpr int settled = 32;
         return std::vector<Variant>{
             {"nothing", with(with(light, {"noise=none"}), unfiltered), 0, 256},
             {"Bayer", with(bayer, unfiltered), 0, 256},
@@ -43,15 +43,15 @@ const std::vector<Variant>& variants() {
             {"Bayer, gaussian1", with(bayer, narrow)},
             {"FAST, gaussian1", with(fast, narrow)},
             {"Bayer, gaussian15, half", with(with(bayer, wide), {"resolution=half"})},
-            {"Bayer, history", with(with(with(bayer, moving), unfiltered), history), settled, 8},
-            {"FAST, history", with(with(with(fast, slices), unfiltered), history), settled, 8},
-            {"Bayer, gaussian1, history", with(with(with(bayer, moving), narrow), history), settled, 8},
+            {"Bayer, history", with(with(with(bayer, moving), unfiltered), history), settled_frames, 8},
+            {"FAST, history", with(with(with(fast, slices), unfiltered), history), settled_frames, 8},
+            {"Bayer, gaussian1, history", with(with(with(bayer, moving), narrow), history), settled_frames, 8},
             {"Bayer, gaussian15, visibility, history",
              with(with(with(with(bayer, moving), wide), history),
                   {"reconstruct=visibility", "temporal_place=before"}),
-             settled, 8},
+             settled_frames, 8},
             {"Bayer, gaussian1, history, half",
-             with(with(with(with(bayer, moving), narrow), history), {"resolution=half"}), settled, 8},
+             with(with(with(with(bayer, moving), narrow), history), {"resolution=half"}), settled_frames, 8},
         };
     }();
     return list;
@@ -100,7 +100,7 @@ std::vector<Group> ingredient_groups(const Place& place, const PlaceFacts& facts
             p.variable = "steps";
             p.value = steps;
             p.configuration.family = v.name;
-            p.configuration.settings = {"technique=ray_march"};
+            p.configuration.settings = base_settings("ray_march", v.history_frames);
             p.configuration.settings.insert(p.configuration.settings.end(), v.settings.begin(), v.settings.end());
             p.configuration.settings.push_back(fmt::format("steps={}", steps));
             p.configuration.label = std::to_string(steps);

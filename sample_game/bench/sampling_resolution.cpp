@@ -4,30 +4,40 @@
 
 #include "sample_game/bench/markdown.h"
 #include "sample_game/bench/sampling.h"
+#include "sample_game/bench/techniques.h"
 
 namespace tyndall::bench {
 
 std::vector<Group> resolution_groups(const Place& place, const PlaceFacts& facts, const SuiteRequest& request) {
     Group group{place.name, {}, facts};
-    const auto add = [&](const std::string& name, std::vector<std::string> settings) {
+    const auto add = [&](const std::string& name, const std::vector<std::string>& settings,
+                         int history_frames = 0) {
         Point p;
         p.place = &bench::place(place.name);
         p.size = request.size;
         p.configuration.family = name;
-        p.configuration.settings = std::move(settings);
+        p.configuration.settings = base_settings("ray_march", history_frames);
+        p.configuration.settings.insert(p.configuration.settings.end(), settings.begin(), settings.end());
+        p.configuration.history_frames = history_frames;
         p.configuration.weight = 12;
         group.points.push_back(std::move(p));
     };
-    add("full", {"technique=ray_march", "steps=8", "resolution=full"});
+    add("full", {"steps=8", "resolution=full"});
     for (const char* resolution : {"half", "quarter"})
         for (const char* upsample : {"nearest", "bilinear", "bilateral", "nearest_depth"})
             for (const char* depth : {"min", "max", "checkerboard"})
                 add(fmt::format("{}, {}, {}", resolution, upsample, depth),
-                    {"technique=ray_march", "steps=8", std::string("resolution=") + resolution,
-                     std::string("upsample=") + upsample, std::string("resolution_depth=") + depth});
+                    {"steps=8", std::string("resolution=") + resolution, std::string("upsample=") + upsample,
+                     std::string("resolution_depth=") + depth});
     // Of twice the steps: what half the resolution leaves time for.
-    add("half, bilateral, checkerboard, 32 steps", {"technique=ray_march", "steps=32", "resolution=half",
-                                                    "upsample=bilateral", "resolution_depth=checkerboard"});
+    add("half, bilateral, checkerboard, 32 steps",
+        {"steps=32", "resolution=half", "upsample=bilateral", "resolution_depth=checkerboard"});
+    add("full, mean over frames", {"steps=8", "resolution=full"}, settled_frames);
+    for (const char* resolution : {"half", "quarter"})
+        add(std::string(resolution) + ", bilateral, checkerboard, mean over frames",
+            {"steps=8", std::string("resolution=") + resolution, "upsample=bilateral",
+             "resolution_depth=checkerboard"},
+            settled_frames);
     return {group};
 }
 

@@ -43,7 +43,7 @@ Configuration with_count(const std::string& family_name, std::vector<std::string
     Configuration c;
     c.family = family_name;
     const Family& row = family(family_name);
-    c.settings = {"technique=" + row.technique};
+    c.settings = base_settings(row.technique, row.history_frames);
     c.settings.insert(c.settings.end(), row.settings.begin(), row.settings.end());
     c.settings.insert(c.settings.end(), settings.begin(), settings.end());
     c.settings.push_back(fmt::format("{}={}", key, count));
@@ -90,7 +90,7 @@ std::vector<Group> stress_groups(const Place& place, const PlaceFacts& facts, co
 
 const std::string standard = "march, Bayer, blur";
 
-/// Each technique as it comes: its last row names it.
+/// Each technique as it comes, once its history has settled: its last row names it.
 std::vector<Group> approaches_groups(const Place& place, const PlaceFacts& facts, const SuiteRequest& request) {
     Group group{place.name, {}, facts};
     for (const std::string& technique : volumetrics::technique_names()) {
@@ -98,8 +98,8 @@ std::vector<Group> approaches_groups(const Place& place, const PlaceFacts& facts
         if (row == families().rend() || (row->limit && request.against_gpu)) continue;
         Configuration c;
         c.family = row->name;
-        c.settings = {"technique=" + technique};
-        c.history_frames = row->history_frames;
+        c.history_frames = row->limit ? 0 : settled_frames;
+        c.settings = base_settings(technique, c.history_frames);
         c.weight = row->limit ? 1000 : 12;
         group.points.push_back(point(place, request.size, c, "", 0));
     }

@@ -15,7 +15,7 @@ Family march(const std::string& name, const std::string& noise, const std::strin
              Marker marker) {
     return {name,
             "ray_march",
-            {"noise=" + noise, "filter=" + filter, "reconstruct=light", "temporal=off"},
+            {"noise=" + noise, "filter=" + filter, "reconstruct=light"},
             {{"lamp_integration", {"segment", "center"}, true}, {"steps", {"2", "4", "8", "16", "32", "64"}}},
             "steps",
             color,
@@ -32,15 +32,15 @@ const std::vector<Family>& families() {
         march("march, white, blur", "white_tile", "gaussian15", "#c4500a", Marker::triangle),
         march("march, Bayer", "bayer", "none", "#7db4e0", Marker::square),
         march("march, Bayer, blur", "bayer", "gaussian15", "#0b5fa5", Marker::square),
+        {"march", "ray_march", {}, {{"steps", {"2", "4", "8", "16", "32"}}}, "steps", "#1f9e89", Marker::square},
         {"march, mean over frames",
          "ray_march",
-         {"noise_time=golden_ratio", "temporal=accumulate"},
+         {},
          {{"steps", {"2", "4", "8", "16", "32"}}},
          "steps",
          "#12355b",
          Marker::diamond,
-         32},
-        {"march", "ray_march", {}, {{"steps", {"2", "4", "8", "16", "32"}}}, "steps", "#1f9e89", Marker::square},
+         settled_frames},
         {"froxel",
          "froxel",
          {"froxel_history=0"},
@@ -55,7 +55,7 @@ const std::vector<Family>& families() {
          "froxels_z",
          "#e58ac0",
          Marker::diamond,
-         32},
+         settled_frames},
         {"analytic fog", "analytic_fog", {}, {}, "", "#5c5c00", Marker::circle},
         {"radial shafts",
          "radial_shafts",
@@ -96,10 +96,16 @@ const Family& family(const std::string& name) {
     return *found;
 }
 
+std::vector<std::string> base_settings(const std::string& technique, int history_frames) {
+    std::vector<std::string> settings{"technique=" + technique};
+    if (history_frames == 0) settings.emplace_back("temporal=off");
+    return settings;
+}
+
 std::vector<Configuration> expand(const Family& family, const PlaceFacts& facts) {
     Configuration base;
     base.family = family.name;
-    base.settings = {"technique=" + family.technique};
+    base.settings = base_settings(family.technique, family.history_frames);
     base.settings.insert(base.settings.end(), family.settings.begin(), family.settings.end());
     base.history_frames = family.history_frames;
     std::vector<Configuration> all{base};

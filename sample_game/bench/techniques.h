@@ -32,6 +32,11 @@ struct Family {
 [[nodiscard]] const std::vector<Family>& families();
 [[nodiscard]] const Family& family(const std::string& name);  ///< a failed check when there is none
 
+/// Frames after which a mean over frames has what it can have.
+inline constexpr int settled_frames = 32;
+/// Of one frame (history_frames 0) that knows no other, or of the technique as it comes.
+[[nodiscard]] std::vector<std::string> base_settings(const std::string& technique, int history_frames);
+
 /// All combinations of a family's axes. The first value of each axis but the cost's is the one drawn filled.
 [[nodiscard]] std::vector<Configuration> expand(const Family& family, const PlaceFacts& facts);
 
