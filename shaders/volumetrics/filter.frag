@@ -72,11 +72,11 @@ float plane_slope(float d, vec2 texel_step) {
 #if NARROWS
 // Noise in the mean over n frames falls, what a wide kernel smears stays. An edge's squared error grows with the width
 // sigma, that of noise of variance 1 / n falls with sigma² in two directions: their sum is least for sigma ~ n^(-1/3). A
-// kernel of variance v is taken to be right for one frame, or a wider one of 9 px² (of 4 px²: up to 8% less error, and in
+// kernel of variance v is taken to be right for one frame, or a wider one of 6 px² (of 4 px²: up to 4% less error, and in
 // skies one sees the lattice of Bayer noise). Taps are weighed by exp(-k x²) as well, which makes of a Gaussian kernel one
-// of variance max(v, 9 px²) / n^(2/3), but not less than the least. k = 0, the kernel as it is, where it is not wider than
+// of variance max(v, 6 px²) / n^(2/3), but not less than the least. k = 0, the kernel as it is, where it is not wider than
 // that: always at n = 1.
-const float variance_of_one_frame = 9.0, least_variance = 0.25;  // px²
+const float variance_of_one_frame = 6.0, least_variance = 0.25;  // px²
 float narrowing() {
     float n = max(texelFetch(frames_texture, ivec2(gl_FragCoord.xy), 0).y, 1.0);
     count_work(WORK_TEXTURE_FETCHES, 1u);

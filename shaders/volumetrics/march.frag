@@ -139,9 +139,7 @@ void march_segment(Ray ray, float a, float b, float offset, inout Extinction sun
         last = min(last + 1, MAX_PARTS - 1);
         gathered[last] = mean_channel(min(sun, 1.0e30));
         ends[last] = end;
-        vec3 behind = part.sigma_s + height_sigma_s(ray.origin.y + ray.direction.y * end);
-        vec3 front = part.sigma_s + height_sigma_s(ray.origin.y + ray.direction.y * begin);
-        falls[last] = light.x + log(max(mean_channel(front), 1.0e-30) / max(mean_channel(behind), 1.0e-30));
+        falls[last] = sunlight_fall(ray, part, light.x);
 #endif
         float share = path_length / max(b - a, 1.0e-30);
         segment.sigma_s += share * part.sigma_s;

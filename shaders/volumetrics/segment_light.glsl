@@ -21,15 +21,26 @@ struct SegmentLight {
 };
 
 #if HAS_SUN
+// Sunlight gathered a metre falls along the segment by exp(-fall): by the optical depth x of SunSegment, and as height
+// media get thinner.
+float sunlight_fall(Ray ray, Segment segment, float x) {
+#if HEIGHT_MEDIA
+    vec3 front = segment.sigma_s + height_sigma_s(ray.origin.y + ray.direction.y * segment.begin);
+    vec3 behind = segment.sigma_s + height_sigma_s(ray.origin.y + ray.direction.y * segment.end);
+    x += log(max(mean_channel(front), 1.0e-30) / max(mean_channel(behind), 1.0e-30));
+#endif
+    return x;
+}
+
 // What the local media leave of sunlight on its way to the segment: the mean over two points, each in its half of the
-// light gathered; x as in SunSegment.
-vec3 local_sun_transmittance(Ray ray, Segment segment, float x) {
+// light gathered.
+vec3 local_sun_transmittance(Ray ray, Segment segment, float fall) {
 #if SUN_VOLUME
     float path_length = segment.end - segment.begin;
     float offset = FROXEL_HISTORY == 0 && VISIBILITY == 0 ? segment.offset : 0.5;
     vec3 sum = vec3(0.0);
     for (int i = 0; i < 2; ++i) {
-        float t = segment.begin + path_length * equal_transmittance(0.5 * (offset + float(i)), x);
+        float t = segment.begin + path_length * equal_transmittance(0.5 * (offset + float(i)), fall);
         sum += exp(-local_sun_optical_depth(ray.origin + ray.direction * t));
     }
     return 0.5 * sum;
@@ -50,10 +61,11 @@ SegmentLight segment_light_parts(Ray ray, Segment segment, Medium m, Optics opti
 #if HAS_SUN
     // Visibility is sampled where that share of the light has been gathered.
     SunSegment sun = sun_segment(ray, segment.begin, segment.end, optics, sun_front);
-    float t = segment.begin + path_length * equal_transmittance(segment.offset, sun.x);
+    float fall = sunlight_fall(ray, segment, sun.x);
+    float t = segment.begin + path_length * equal_transmittance(segment.offset, fall);
     count_work(WORK_SHADOW_LOOKUPS, 1u);
     light.sun_visibility = sun_visibility(visibility_point(ray, t), t * ray.forward_cosine);
-    light.sun = sun_scattering(ray, m, sun.effective_length) * local_sun_transmittance(ray, segment, sun.x);
+    light.sun = sun_scattering(ray, m, sun.effective_length) * local_sun_transmittance(ray, segment, fall);
 #endif
 
 #if LAMPS == 1

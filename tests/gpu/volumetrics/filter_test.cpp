@@ -92,12 +92,12 @@ TEST_F(VolumetricsFilter, OnlyTheTapsOfTheKernelAreFetched) {
         }
 }
 
-/// The kernel after a mean of n frames: a Gaussian one of variance v becomes one of max(v, 9 px²) / n^(2/3), or of
+/// The kernel after a mean of n frames: a Gaussian one of variance v becomes one of max(v, 6 px²) / n^(2/3), or of
 /// 0.25 px², by a second Gaussian that multiplies all kernels; none becomes wider.
 Taps narrowed(Taps taps, int n) {
     double variance = 0;
     for (std::size_t x = 1; x < taps.size(); ++x) variance += 2 * taps[x] * double(x * x);
-    const double target = std::max(std::max(variance, 9.0) / std::cbrt(double(n) * n), 0.25);
+    const double target = std::max(std::max(variance, 6.0) / std::cbrt(double(n) * n), 0.25);
     const double added = std::max(1 / target - 1 / variance, 0.0);
     for (std::size_t x = 0; x < taps.size(); ++x) taps[x] *= std::exp(-0.5 * double(x * x) * added);
     return normalised(taps);
