@@ -93,10 +93,8 @@ Reference::Ray Reference::trace(dvec3 origin, dvec3 unit_direction, double begin
     ray.scattering = scattered.radiance;
     ray.error = scattered.error;
     ray.transmittance = glm::exp(-media.depth(ray.distance));
-    if (!hit && !i.settings.black_sky)
-        ray.background = i.sky.background(unit_direction);
-    if (hit && !i.settings.black_surfaces)
-        ray.background = i.surface_radiance(*hit, origin, unit_direction);
+    if (!hit && !i.settings.black_sky) ray.background = i.sky.background(unit_direction);
+    if (hit && !i.settings.black_surfaces) ray.background = i.surface_radiance(*hit, origin, unit_direction);
     return ray;
 }
 

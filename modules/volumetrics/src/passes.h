@@ -12,7 +12,8 @@ namespace tyndall::volumetrics {
 
 /// Froxel volumes of the local media: RGBA16F 3D textures, see shaders/volumetrics/inject_media.comp.
 struct FroxelMedia {
-    TextureRef columns;  ///< farthest view depth of each column, see froxel_columns.frag: nothing is injected behind it
+    TextureRef
+        columns;  ///< farthest view depth of each column, see froxel_columns.frag: nothing is injected behind it
     TextureRef scattering, extinction, emission;  ///< emission only where some local medium emits
     TextureRef runs;  ///< RG32UI, see froxel_runs.comp; only for the march with visibility apart from light
 };
@@ -33,15 +34,15 @@ struct PassResources {
 [[nodiscard]] FroxelMedia add_inject_media(PassList& passes, const PassResources& resources, const Inputs& inputs,
                                            const Settings& settings, const FrameMedia& media);
 [[nodiscard]] MarchedLight add_march(PassList& passes, const PassResources& resources, const Inputs& inputs,
-                                const Settings& settings, const FrameMedia& media, const FroxelMedia& froxels);
+                                     const Settings& settings, const FrameMedia& media, const FroxelMedia& froxels);
 /// Light and transmittance of froxels: the steps of the technique froxel before the last.
 [[nodiscard]] Fog add_froxel_fog(PassList& passes, const PassResources& resources, const Inputs& inputs,
                                  const Settings& settings, const FrameMedia& media, const FroxelMedia& froxels,
                                  FroxelHistory& history);
 /// The same, interpolated at each pixel's depth of `low`, see reconstruction.h.
-[[nodiscard]] Outputs add_froxel(PassList& passes, const PassResources& resources, const Inputs& inputs, const Inputs& low,
-                                 const Settings& settings, const FrameMedia& media, const FroxelMedia& froxels,
-                                 FroxelHistory& history);
+[[nodiscard]] Outputs add_froxel(PassList& passes, const PassResources& resources, const Inputs& inputs,
+                                 const Inputs& low, const Settings& settings, const FrameMedia& media,
+                                 const FroxelMedia& froxels, FroxelHistory& history);
 /// The approaches that froxels are compared with. Each says in its file what it models and what it cannot.
 [[nodiscard]] Outputs add_billboards(PassList& passes, PassResources& resources, const Inputs& inputs,
                                      const Settings& settings, const FrameMedia& media);
@@ -54,7 +55,8 @@ struct PassResources {
                                        const Settings& settings, const FrameMedia& media);
 /// There is a sun.
 [[nodiscard]] Outputs add_radial_shafts(PassList& passes, PassResources& resources, const Inputs& inputs,
-                                        const Settings& settings, const FrameMedia& media, TemporalHistory& history);
+                                        const Settings& settings, const FrameMedia& media,
+                                        TemporalHistory& history);
 /// Value of the axis HEIGHT_MEDIA.
 [[nodiscard]] int height_media_axis(const FrameMedia& media);
 

@@ -23,9 +23,9 @@ namespace {
 const std::map<Technique, std::vector<const char*>>& passes_of() {
     static const std::map<Technique, std::vector<const char*>> names{
         {Technique::ray_march,
-         {"volumetrics/inject_media", "volumetrics/froxel_runs", "volumetrics/depth_downsample", "volumetrics/march",
-          "volumetrics/filter_horizontal", "volumetrics/filter_vertical", "volumetrics/relight",
-          "volumetrics/upsample", "volumetrics/temporal"}},
+         {"volumetrics/inject_media", "volumetrics/froxel_runs", "volumetrics/depth_downsample",
+          "volumetrics/march", "volumetrics/filter_horizontal", "volumetrics/filter_vertical",
+          "volumetrics/relight", "volumetrics/upsample", "volumetrics/temporal"}},
         {Technique::froxel,
          {"volumetrics/inject_media", "volumetrics/froxel_history", "volumetrics/depth_downsample",
           "volumetrics/filter_horizontal", "volumetrics/filter_vertical", "volumetrics/upsample",
@@ -137,8 +137,7 @@ struct Volumetrics::Impl {
         const FroxelMedia froxels = add_local_media(passes, inputs, settings);
         Fog fog;
         Outputs outputs = add_sampled(passes, inputs, settings, [&](const Inputs& low) {
-            Outputs applied =
-                add_froxel(passes, resources, inputs, low, settings, media, froxels, froxel_history);
+            Outputs applied = add_froxel(passes, resources, inputs, low, settings, media, froxels, froxel_history);
             fog = applied.fog;
             return applied;
         });
@@ -246,8 +245,7 @@ Outputs Volumetrics::add_passes(PassList& passes, const Inputs& inputs, const Se
     const FrameMedia& media = impl_->media;
     impl_->count_work = inputs.count_work;
     if (!impl_->light_passes_added) add_light_passes(passes, inputs, settings);
-    if (media.empty() || !averages_frames(settings))
-        impl_->temporal_history.release();
+    if (media.empty() || !averages_frames(settings)) impl_->temporal_history.release();
     if (!keeps_history(inputs, settings, media)) impl_->froxel_history.release();
     if (settings.technique == Technique::off || media.empty()) {
         skip_all(passes, settings.technique == Technique::off ? "technique is off" : "no medium in view");

@@ -37,11 +37,10 @@ TEST_F(VolumetricsPasses, WithoutMediumNothingIsAddedOrHeld) {
         EXPECT_THAT(frame.live_passes, IsEmpty());
         EXPECT_THAT(frame.skipped,
                     UnorderedElementsAre(Key("volumetrics/inject_media"), Key("volumetrics/froxel_runs"),
-                                         Key("volumetrics/depth_downsample"),
-                                         Key("volumetrics/march"), Key("volumetrics/filter_horizontal"),
-                                         Key("volumetrics/filter_vertical"), Key("volumetrics/relight"),
-                                         Key("volumetrics/upsample"), Key("volumetrics/temporal"),
-                                         Key("volumetrics/composite")));
+                                         Key("volumetrics/depth_downsample"), Key("volumetrics/march"),
+                                         Key("volumetrics/filter_horizontal"), Key("volumetrics/filter_vertical"),
+                                         Key("volumetrics/relight"), Key("volumetrics/upsample"),
+                                         Key("volumetrics/temporal"), Key("volumetrics/composite")));
         EXPECT_EQ(frame.persistent_bytes, 0U);
     }
 }

@@ -290,8 +290,8 @@ TEST(LampSegment, PhaseAlongTheSegment) {
     }
 }
 
-// Places at even shares of the light: as many lie before any point of the segment as light does. The places that know the
-// inverse square alone are for comparison.
+// Places at even shares of the light: as many lie before any point of the segment as light does. The places that
+// know the inverse square alone are for comparison.
 TEST(LampSegment, PlacesLieAsDenselyAsThereIsLight) {
     std::mt19937 random(29);
     Error placed, equi_angular;
