@@ -93,7 +93,7 @@ TEST(Window, WalkLookAndTheDebugUi) {
     }
     GameProcess game({level(), "--size", "448x540", "--technique", "off", "--set", "lamp_integration=center",
                       "--set", "steps=2", "--set", "shadows=false", "--set", "froxels_x=32", "--set",
-                      "froxels_y=24", "--set", "froxels_z=24"});
+                      "froxels_y=24", "--set", "froxels_z=24", "--set", "temporal=off"});
     game.move_pointer(380, 300);
 
     // On foot, in the direction the level's start looks.
