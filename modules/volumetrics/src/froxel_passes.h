@@ -9,8 +9,8 @@ class FroxelHistory;
 /// What froxel_light gives, RGBA16F volumes of the froxels' size. Without a history only `radiance`.
 struct FroxelLight {
     TextureRef radiance;  ///< light of each slice; with a history without sun and lamps, which froxel_history adds
-    TextureRef
-        visibility;  ///< rgb visible share of the lamps' light, a of the sun, in this frame; < 0: there are none
+    /// rgb visible share of the lamps' light, a of the sun, in this frame; < 0: there are none.
+    TextureRef visibility;
     TextureRef sun, lamps;  ///< unshadowed light
 };
 

@@ -12,8 +12,8 @@ namespace tyndall::volumetrics {
 
 /// Froxel volumes of the local media: RGBA16F 3D textures, see shaders/volumetrics/inject_media.comp.
 struct FroxelMedia {
-    TextureRef
-        columns;  ///< farthest view depth of each column, see froxel_columns.frag: nothing is injected behind it
+    /// Farthest view depth of each column, see froxel_columns.frag: nothing is injected behind it.
+    TextureRef columns;
     TextureRef scattering, extinction, emission;  ///< emission only where some local medium emits
     TextureRef runs;  ///< RG32UI, see froxel_runs.comp; only for the march with visibility apart from light
 };

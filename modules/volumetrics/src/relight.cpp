@@ -15,10 +15,14 @@ const ProgramRegistry::Registration registration(program);
 
 }  // namespace
 
-const char* reason_for_light(const Inputs& inputs, const Settings& settings, const FrameMedia& media) {
+const char* reason_for_light(const Settings& settings) {
     const bool temporal = settings.temporal != Temporal::off && settings.temporal_place == TemporalPlace::before;
     if (settings.reconstruct == Reconstruct::light) return "reconstruct is light";
-    if (settings.filter == Filter::none && !temporal) return "nothing filters visibility";
+    return settings.filter == Filter::none && !temporal ? "nothing filters visibility" : nullptr;
+}
+
+const char* reason_for_light(const Inputs& inputs, const Settings& settings, const FrameMedia& media) {
+    if (const char* reason = reason_for_light(settings)) return reason;
     if (!inputs.has_sun && !inputs.has_lamps) return "no sun and no lamps";
     if (inputs.has_lamps && settings.lamp_integration == LampIntegration::center)
         return "lamp_integration is center: unshadowed light is noisy, too";

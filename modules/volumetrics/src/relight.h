@@ -19,6 +19,8 @@ struct MarchedLight {
 
 /// Why the march leaves all light in one, for the setting reconstruct; null where it does not.
 [[nodiscard]] const char* reason_for_light(const Inputs& inputs, const Settings& settings, const FrameMedia& media);
+/// The reasons that lie in the settings alone.
+[[nodiscard]] const char* reason_for_light(const Settings& settings);
 
 /// What of the march has to be filtered: two textures at most.
 [[nodiscard]] Outputs noisy_part(const MarchedLight& marched);

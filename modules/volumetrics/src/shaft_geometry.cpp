@@ -128,14 +128,6 @@ TextureRef add_faces(PassList& passes, const PassResources& resources, const Inp
     return light;
 }
 
-/// Why the lamps' visibility, all that has noise, is not filtered apart; null where it is.
-const char* reason_for_whole(const Inputs& inputs, const Settings& settings) {
-    const bool temporal = settings.temporal != Temporal::off && settings.temporal_place == TemporalPlace::before;
-    if (!inputs.has_lamps) return "no lamps";
-    if (settings.reconstruct == Reconstruct::light) return "reconstruct is light";
-    return settings.filter == Filter::none && !temporal ? "nothing filters visibility" : nullptr;
-}
-
 MarchedLight add_resolve(PassList& passes, const PassResources& resources, const Inputs& inputs,
                          const Settings& settings, const FrameMedia& media, TextureRef face_light) {
     const gl::TextureDesc desc{.format = GL_RGBA16F, .size = {inputs.size, 1}};
@@ -144,7 +136,8 @@ MarchedLight add_resolve(PassList& passes, const PassResources& resources, const
     Relit& lamps = marched.lamps;
     outputs.scattering = passes.create("volumetrics/scattering", desc);
     if (media.chromatic) outputs.transmittance = passes.create("volumetrics/transmittance", desc);
-    if (const char* whole = reason_for_whole(inputs, settings))
+    // Of all that is drawn here the lamps' visibility alone has noise.
+    if (const char* whole = inputs.has_lamps ? reason_for_light(settings) : "no lamps")
         passes.skip("volumetrics/relight", whole);
     else
         lamps = {passes.create("volumetrics/lamps", desc), passes.create("volumetrics/lamps_share", desc)};
