@@ -38,6 +38,23 @@ TEST_F(VolumetricsTemporal, AcceptanceFallsWithTheDistanceToWhatWasSeen) {
     }
 }
 
+// What the camera's travel leaves of a mean of 8 frames: nothing of one frame's 0.15 m before the sky, 0.075 m at
+// 10 m and 14 mm at 1 m; 3 frames of a fourth of that.
+TEST_F(VolumetricsTemporal, TravelForgetsByTheDistanceOfTheSurface) {
+    const Settings s = settings(Temporal::accumulate);
+    for (const glm::vec2 z_and_step : {glm::vec2(sky, 0.15F), {10, 0.075F}, {1, 0.15F / 11}})
+        for (const float share : {1.02F, 0.25F}) {
+            const float step = share * z_and_step.y, z = z_and_step.x;
+            host.eye = {0, 0, 0};
+            host.view_depth = [z](int, int) { return z; };
+            after(8, s);
+            host.eye = {0, 0, step};  // back from the wall
+            host.view_depth = [z, step](int, int) { return z == sky ? sky : z + step; };
+            EXPECT_NEAR(accepted(s), share > 1 ? 0 : 3.0 / 8, 0.01) << z << ' ' << step;
+            draw(without(s));
+        }
+}
+
 TEST_F(VolumetricsTemporal, SkyIsAcceptedWithSkyAndNothingElse) {
     const Settings s = settings(Temporal::accumulate);
     host.view_depth = [](int, int) { return sky; };
