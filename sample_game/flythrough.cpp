@@ -10,8 +10,8 @@
 #include "engine/core/error.h"
 #include "engine/core/files.h"
 #include "engine/core/image.h"
-#include "sample_game/progress.h"
 #include "sample_game/statistics.h"
+#include "session/progress.h"
 
 namespace tyndall {
 namespace {

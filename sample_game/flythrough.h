@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "sample_game/session.h"
+#include "session/session.h"
 
 namespace tyndall {
 

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "sample_game/session.h"
+#include "session/session.h"
 
 namespace tyndall {
 

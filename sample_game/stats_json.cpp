@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "sample_game/session.h"
+#include "session/session.h"
 
 namespace tyndall {
 

@@ -1,4 +1,4 @@
-#include "sample_game/bench/bench.h"
+#include "bench/bench.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <memory>
 
+#include "bench/suites.h"
 #include "engine/core/error.h"
-#include "sample_game/bench/suites.h"
 #include "sample_game/commands/commands.h"
 
 namespace tyndall {

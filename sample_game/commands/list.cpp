@@ -8,7 +8,7 @@
 #include "engine/core/error.h"
 #include "engine/core/files.h"
 #include "sample_game/commands/commands.h"
-#include "sample_game/session.h"
+#include "session/session.h"
 
 namespace tyndall {
 namespace {

@@ -12,8 +12,8 @@
 #include "engine/render/passes/tonemap.h"
 #include "engine/render/render_settings.h"
 #include "sample_game/commands/commands.h"
-#include "sample_game/progress.h"
-#include "sample_game/scene_options.h"
+#include "session/progress.h"
+#include "session/scene_options.h"
 #include "shaders/lib/glm_subset.h"
 #include "volumetrics/settings.h"
 

@@ -5,8 +5,8 @@
 #include "engine/core/files.h"
 #include "engine/core/image.h"
 #include "sample_game/commands/commands.h"
-#include "sample_game/session.h"
 #include "sample_game/stats_json.h"
+#include "session/session.h"
 
 namespace tyndall {
 namespace {

@@ -3,10 +3,10 @@
 #include <string>
 
 #include "sample_game/level_logic.h"
-#include "sample_game/session.h"
 #include "sample_game/ui/imgui_input.h"
 #include "sample_game/ui/imgui_renderer.h"
 #include "sample_game/ui/texture_viewer.h"
+#include "session/session.h"
 
 struct ImGuiContext;
 

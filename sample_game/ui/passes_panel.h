@@ -1,6 +1,6 @@
 #pragma once
 
-#include "sample_game/session.h"
+#include "session/session.h"
 
 namespace tyndall {
 

@@ -10,7 +10,7 @@
 #include "shaders/engine/shadow_lookup.glsl"
 #endif
 #if MEDIUM_TRANSMITTANCE
-#include "shaders/volumetrics/light_transmittance.glsl"
+#include "shaders/volumetrics/light/light_transmittance.glsl"
 #endif
 
 const float ISOTROPIC_PHASE = 0.07957747;  // 1 / (4 pi)

@@ -13,7 +13,7 @@
 #include "shaders/engine/shadow_lookup.glsl"
 #endif
 #if MEDIUM_TRANSMITTANCE
-#include "shaders/volumetrics/light_transmittance.glsl"
+#include "shaders/volumetrics/light/light_transmittance.glsl"
 #endif
 
 layout(binding = 5) uniform samplerCube sky;  // radiance, mipped

@@ -12,12 +12,12 @@
 #include "shaders/lib/octahedral.glsl"
 #include "shaders/lib/work.glsl"
 #if FOG || MEDIUM_TRANSMITTANCE
-#include "shaders/volumetrics/light_transmittance.glsl"
+#include "shaders/volumetrics/light/light_transmittance.glsl"
 #endif
 #if FOG
 #define LOCAL_MEDIA 1
 #define CHROMATIC 1
-#include "shaders/volumetrics/apply.glsl"
+#include "shaders/volumetrics/frame/apply.glsl"
 #endif
 
 // color: radiance, pre-multiplied by the coverage alpha (highlights whole); screen: 0..1; view_depth: m.

@@ -33,7 +33,7 @@
 #define UNIT_LAMP_VOLUMES 13
 #define UNIT_NOISE 5
 
-// What shaders/volumetrics/apply.glsl samples, beside the textures of the pass that includes it.
+// What shaders/volumetrics/frame/apply.glsl samples, beside the textures of the pass that includes it.
 #define UNIT_FOG_COLUMNS 6
 #define UNIT_FOG_RADIANCE 7
 #define UNIT_FOG_OPTICAL_DEPTH 14

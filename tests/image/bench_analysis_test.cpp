@@ -5,9 +5,9 @@
 #include <cmath>
 #include <limits>
 
+#include "bench/analysis.h"
+#include "bench/errors.h"
 #include "engine/core/image_metrics.h"
-#include "sample_game/bench/analysis.h"
-#include "sample_game/bench/errors.h"
 
 namespace tyndall::bench {
 namespace {

@@ -6,10 +6,10 @@
 #include <fstream>
 #include <regex>
 
+#include "bench/store.h"
+#include "bench/svg_plot.h"
 #include "engine/core/error.h"
 #include "engine/core/files.h"
-#include "sample_game/bench/store.h"
-#include "sample_game/bench/svg_plot.h"
 #include "support/command.h"
 
 namespace tyndall::bench {

@@ -7,9 +7,9 @@
 #include <map>
 #include <sstream>
 
+#include "bench/sequences.h"
+#include "bench/svg_frames.h"
 #include "engine/core/files.h"
-#include "sample_game/bench/sequences.h"
-#include "sample_game/bench/svg_frames.h"
 #include "support/command.h"
 
 namespace tyndall::test {

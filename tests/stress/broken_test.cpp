@@ -93,7 +93,7 @@ INSTANTIATE_TEST_SUITE_P(Guards, BrokenBuild,
                                            Guard{"HalfMaximum", "shaders/lib/pack.glsl",
                                                  "vec4 limited = clamp(v, vec4(-HALF_MAX), vec4(HALF_MAX));",
                                                  "vec4 limited = v;", "65504 expected"},
-                                           Guard{"ClearestChannel", "shaders/volumetrics/segment.glsl",
+                                           Guard{"ClearestChannel", "shaders/volumetrics/light/segment.glsl",
                                                  "if (clearest_end > visible_end)", "if (false)",
                                                  "the ground truth"}),
                          [](const auto& info) { return info.param.name; });

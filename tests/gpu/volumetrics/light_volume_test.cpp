@@ -22,7 +22,7 @@ constexpr const char* lamp_pass = "volumetrics/lamp_volumes";
 
 /// As a host's lighting pass would ask for it.
 constexpr const char* probe_glsl = R"(
-#include "shaders/volumetrics/light_transmittance.glsl"
+#include "shaders/volumetrics/light/light_transmittance.glsl"
 layout(local_size_x = 1) in;
 layout(std430, binding = 0) buffer Points { vec4 points[]; };
 uniform vec3 light;  // towards the sun; or where the lamp is
@@ -298,7 +298,7 @@ TEST_F(VolumetricsLightVolume, NothingOfItWithoutNeed) {
 }
 
 TEST_F(VolumetricsLightVolume, WithoutVolumesTheyAreNotInTheShaderText) {
-    const std::string text = resolve_includes(folder.path(), "shaders/volumetrics/light_transmittance.glsl");
+    const std::string text = resolve_includes(folder.path(), "shaders/volumetrics/light/light_transmittance.glsl");
     EXPECT_THAT(text, HasSubstr("#if SUN_VOLUME"));
     host.global = {{.sigma_s = glm::vec3(0.1F)}};
     host.has_sun = true;

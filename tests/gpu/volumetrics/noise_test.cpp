@@ -1,6 +1,6 @@
 // Where pixels sample, as shaders find it: every kind of noise in space, every way in time, and what it costs.
 
-#include "modules/volumetrics/src/noise.h"
+#include "modules/volumetrics/src/reconstruction/noise.h"
 
 #include <gmock/gmock.h>
 
@@ -12,7 +12,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/files.h"
-#include "modules/volumetrics/src/media.h"
+#include "modules/volumetrics/src/media/media.h"
 #include "shaders/shared/bindings.h"
 #include "tests/gpu/support/gl_test.h"
 #include "tests/gpu/support/volumetrics_host.h"
@@ -42,7 +42,7 @@ class VolumetricsNoise : public GlTest {
   protected:
     VolumetricsNoise() : shaders(folder.path()) {
         write_text(folder.path() / "shaders/noise_test.comp", R"(
-#include "shaders/volumetrics/noise_offset.glsl"
+#include "shaders/volumetrics/reconstruction/noise_offset.glsl"
 layout(local_size_x = 16, local_size_y = 16) in;
 layout(std430, binding = 0) writeonly buffer Results { float results[]; };
 void main() {

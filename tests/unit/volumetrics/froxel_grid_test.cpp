@@ -1,4 +1,4 @@
-#include "modules/volumetrics/src/froxel_grid.h"
+#include "modules/volumetrics/src/media/froxel_grid.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "modules/volumetrics/src/media.h"
+#include "modules/volumetrics/src/media/media.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <random>
 
 #include "engine/core/error.h"
-#include "modules/volumetrics/src/froxel_tiles.h"
-#include "modules/volumetrics/src/noise.h"
+#include "modules/volumetrics/src/media/froxel_tiles.h"
+#include "modules/volumetrics/src/reconstruction/noise.h"
 
 namespace tyndall::volumetrics {
 namespace {

@@ -5,8 +5,8 @@
 namespace tyndall::volumetrics {
 
 /// Light and transmittance along all view rays, for what a host draws forward over the fogged picture with
-/// shaders/volumetrics/apply.glsl: a pass that includes it samples them (Volumetrics::sample_fog, bind_fog). Empty
-/// without a medium, and where neither the technique nor Inputs::transparents asked for it.
+/// shaders/volumetrics/frame/apply.glsl: a pass that includes it samples them (Volumetrics::sample_fog, bind_fog).
+/// Empty without a medium, and where neither the technique nor Inputs::transparents asked for it.
 struct Fog {
     TextureRef columns;        ///< R32F: farthest view depth [m] in each column of froxels
     TextureRef radiance;       ///< RGBA16F volume
@@ -26,7 +26,7 @@ struct Outputs {
 };
 
 /// What media do to light on its way to surfaces: for a host's own lighting shaders, which include
-/// shaders/volumetrics/light_transmittance.glsl where `any` says so.
+/// shaders/volumetrics/light/light_transmittance.glsl where `any` says so.
 struct LightTransmittance {
     bool any = false;
     /// Value of the define LIGHT_VOLUMES: 1 sun, 2 lamps, 3 both are attenuated by local media.

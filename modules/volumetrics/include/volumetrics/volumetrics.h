@@ -34,14 +34,15 @@ class Volumetrics {
     /// when there is nothing to apply).
     [[nodiscard]] TextureRef composite(PassList& passes, const Outputs& outputs, TextureRef color);
 
-    /// Declares what shaders/volumetrics/apply.glsl samples, in a host's pass that draws with it over the
+    /// Declares what shaders/volumetrics/frame/apply.glsl samples, in a host's pass that draws with it over the
     /// composite.
     static void sample_fog(PassBuilder& builder, const Fog& fog);
     /// Binds it, and the uniform block, while that pass runs. The host's lights are bound as in its lighting pass.
     void bind_fog(const PassContext& context, const Fog& fog) const;
 
     /// Binds the uniform block at BINDING_VOLUMETRICS and the light volumes of add_light_passes, for host shaders
-    /// that attenuate surface light with shaders/volumetrics/light_transmittance.glsl. Valid from `prepare` on.
+    /// that attenuate surface light with shaders/volumetrics/light/light_transmittance.glsl. Valid from `prepare`
+    /// on.
     void bind_uniforms() const;
     /// Uploads this frame's uniforms and media; called before add_passes, and before the host's lighting pass runs.
     void prepare(const Inputs& inputs, const Settings& settings);

@@ -1,0 +1,158 @@
+#include "light/light_volume.h"
+
+#include <fmt/format.h>
+
+#include <cstring>
+
+#include "shaders/shared/bindings.h"
+
+namespace tyndall::volumetrics {
+namespace {
+
+const ProgramDesc slabs_program{
+    .name = "volumetrics/light_volume_slabs",
+    .stages = {{GL_COMPUTE_SHADER, "shaders/volumetrics/light/light_volume_slabs.comp"}},
+    .axes = {{"LAMP", {0, 1}}, {"CHROMATIC", {0, 1}}, {"COUNT_WORK", {0, 1}}},
+    .valid = {}};
+const ProgramDesc sum_program{.name = "volumetrics/light_volume_sum",
+                              .stages = {{GL_COMPUTE_SHADER, "shaders/volumetrics/light/light_volume_sum.comp"}},
+                              .axes = {{"CHROMATIC", {0, 1}}},
+                              .valid = {}};
+const ProgramRegistry::Registration slabs_registration(slabs_program), sum_registration(sum_program);
+
+/// Texels of a group of the two; of the second, whole columns.
+constexpr glm::ivec3 slabs_group{8, 8, 4}, sum_group{8, 8, 1 << 20};
+
+void dispatch(const gl::Program& program, glm::ivec3 origin, glm::ivec3 size, glm::ivec3 group) {
+    program.set("origin", origin);
+    program.set("size", size);
+    program.use();
+    const glm::uvec3 groups((size + group - 1) / group);
+    glDispatchCompute(groups.x, groups.y, groups.z);
+}
+
+std::vector<shared::LocalMedium> packed(const FrameMedia& media) {
+    std::vector<shared::LocalMedium> all;
+    for (const AttenuatingMedium& medium : media.attenuating) all.push_back(medium.packed);
+    return all;
+}
+
+}  // namespace
+
+gl::Texture light_volume_texture(glm::ivec3 size, bool chromatic, const char* label) {
+    gl::Texture texture({.kind = gl::TextureKind::d3,
+                         .format = static_cast<GLenum>(chromatic ? GL_RGBA16F : GL_R16F),
+                         .size = size,
+                         .levels = 1},
+                        label);
+    constexpr GLint grey[4] = {GL_RED, GL_RED, GL_RED, GL_ONE};
+    if (!chromatic) glTextureParameteriv(texture.id(), GL_TEXTURE_SWIZZLE_RGBA, grey);
+    glTextureParameteri(texture.id(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    for (const GLenum axis : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R})
+        glTextureParameteri(texture.id(), axis, GL_CLAMP_TO_EDGE);
+    return texture;
+}
+
+void fill_light_volume(ShaderLibrary& shaders, bool count_work, const gl::Texture& volume, const gl::Buffer& media,
+                       std::size_t media_count, std::span<const LightRays> rays) {
+    const bool chromatic = volume.desc().format == GL_RGBA16F;
+    glBindImageTexture(0, volume.id(), 0, GL_TRUE, 0, GL_READ_WRITE, volume.desc().format);
+    media.bind(GL_SHADER_STORAGE_BUFFER, BINDING_LOCAL_MEDIA);
+    for (const LightRays& r : rays) {
+        const gl::Program& slabs = shaders.get(
+            slabs_program, {{"LAMP", r.of_lamp()}, {"CHROMATIC", chromatic}, {"COUNT_WORK", count_work}});
+        slabs.set("media_count", static_cast<unsigned>(media_count));
+        if (r.of_lamp()) {
+            slabs.set("lamp_position", r.lamp);
+            slabs.set("lamp_window", r.window);
+            slabs.set("lamp_span", glm::vec2(r.begin, r.end));
+        } else {
+            slabs.set("volume_to_world", r.volume_to_world);
+        }
+        dispatch(slabs, r.origin, r.size, slabs_group);
+    }
+    glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+    const gl::Program& sum = shaders.get(sum_program, {{"CHROMATIC", chromatic}});
+    for (const LightRays& r : rays) dispatch(sum, r.origin, r.size, sum_group);
+}
+
+void LightVolumes::prepare(const Inputs& inputs, const Settings& settings, FrameMedia& media) {
+    sun_ref_ = lamps_ref_ = {};
+    if (media.attenuating.empty()) return release();
+    sun_.prepare(inputs, settings, media);
+    lamps_.prepare(inputs, settings, media);
+    if (axis() == 0) return release();
+    const std::vector<shared::LocalMedium> now = packed(media);
+    if (now.size() == uploaded_.size() &&
+        std::memcmp(now.data(), uploaded_.data(), now.size() * sizeof now[0]) == 0)
+        return;
+    media_.assign(std::span<const shared::LocalMedium>(now), "volumetrics light-dimming media");
+    uploaded_ = now;
+}
+
+void LightVolumes::add_passes(PassList& passes, ShaderLibrary& shaders, const Inputs& inputs) {
+    const auto add = [&](const char* name, auto& volume, const char* without) {
+        if (!volume.texture()) {
+            passes.skip(name, without);
+            return TextureRef();
+        }
+        TextureRef ref = passes.import(name, volume.texture());
+        if (!volume.stale()) {
+            passes.skip(name, "neither the local media nor the light changed");
+            return ref;
+        }
+        passes.add(
+            name, [&](PassBuilder& builder) { ref = builder.storage_write(ref); },
+            [this, &volume, &shaders, count_work = inputs.count_work](const PassContext&) {
+                volume.fill(shaders, count_work, media_, uploaded_.size());
+            });
+        return ref;
+    };
+    sun_ref_ = add("volumetrics/sun_volume", sun_, "no local medium dims a sun");
+    lamps_ref_ = add("volumetrics/lamp_volumes", lamps_, "no lamp in view reaches a local medium");
+    if (lamps_.left_out() > 0)
+        passes.skip(
+            "volumetrics/lamp_volumes of the others",
+            fmt::format("{} lamps more than lamp_volume_count: local media do not dim them", lamps_.left_out()));
+}
+
+void LightVolumes::release() {
+    sun_.release();
+    lamps_.release();
+    media_ = {};
+    uploaded_.clear();
+}
+
+void LightVolumes::sample(PassBuilder& builder) const {
+    builder.sample(sun_ref_);
+    builder.sample(lamps_ref_);
+}
+
+void LightVolumes::bind() const {
+    const auto bind_texture = [](GLuint unit, const gl::Texture& texture) {
+        glBindTextureUnit(unit, texture.id());
+        glBindSampler(unit, 0);
+    };
+    if (sun_.texture()) bind_texture(UNIT_SUN_VOLUME, sun_.texture());
+    if (!lamps_.texture()) return;
+    bind_texture(UNIT_LAMP_VOLUMES, lamps_.texture());
+    lamps_.table().bind(GL_SHADER_STORAGE_BUFFER, BINDING_LAMP_VOLUMES);
+}
+
+std::size_t LightVolumes::bytes() const {
+    std::size_t bytes = media_.size() + lamps_.table().size();
+    for (const gl::Texture* texture : {&sun_.texture(), &lamps_.texture()})
+        if (*texture) bytes += gl::byte_size(texture->desc());
+    return bytes;
+}
+
+bool is_light_volume_permutation(const Permutation& permutation) {
+    const auto found = permutation.find("LIGHT_VOLUMES");
+    if (found == permutation.end() || found->second == 0) return true;
+    const auto sun = permutation.find("HAS_SUN"), lamps = permutation.find("LAMPS");
+    const bool of_sun = (found->second & 1) != 0, of_lamps = (found->second & 2) != 0;
+    return of_sun == (sun != permutation.end() && sun->second != 0) &&
+           (!of_lamps || (lamps != permutation.end() && lamps->second != 0));
+}
+
+}  // namespace tyndall::volumetrics

@@ -1,0 +1,112 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/gl/buffer.h"
+#include "engine/gl/texture.h"
+#include "engine/graph/pass_list.h"
+#include "engine/shader/shader_library.h"
+#include "media/media.h"
+
+namespace tyndall::volumetrics {
+
+/// Optical depth of the local media from a light to each point of a 3D texture, linearly filtered: R16F, RGBA16F
+/// where extinction is coloured (shaders read rgb of both). x and y lie across the light's rays, z along them.
+[[nodiscard]] gl::Texture light_volume_texture(glm::ivec3 size, bool chromatic, const char* label);
+
+/// A part of such a texture that holds the rays of one light.
+struct LightRays {
+    glm::ivec3 origin{0}, size{0};  ///< texels
+    glm::mat4 volume_to_world{1};   ///< sun: from texture coordinates
+    glm::vec3 lamp{0};              ///< m
+    glm::vec4 window{0};            ///< lamp: see shaders/volumetrics/light/light_volume.glsl
+    float begin = 0, end = 0;       ///< lamp: distances (m) of the first and the last texel; both 0 for the sun
+    [[nodiscard]] bool of_lamp() const { return end > 0; }
+};
+
+/// Fills parts of a volume by shaders/volumetrics/light/light_volume_slabs.comp and light_volume_sum.comp.
+void fill_light_volume(ShaderLibrary& shaders, bool count_work, const gl::Texture& volume, const gl::Buffer& media,
+                       std::size_t media_count, std::span<const LightRays> rays);
+
+/// The volume of the sun: a box along its rays round all local media that dim it. It is kept until those or the sun
+/// change.
+class SunVolume {
+  public:
+    void prepare(const Inputs& inputs, const Settings& settings, FrameMedia& media);
+    void release() { *this = {}; }
+    [[nodiscard]] const gl::Texture& texture() const { return texture_; }
+    [[nodiscard]] bool stale() const { return stale_; }
+    void fill(ShaderLibrary& shaders, bool count_work, const gl::Buffer& media, std::size_t media_count);
+
+  private:
+    gl::Texture texture_;
+    std::vector<shared::LocalMedium> media_;  ///< it was last prepared for
+    glm::vec3 direction_{0};
+    glm::mat4 world_to_volume_{1};
+    LightRays rays_;
+    bool stale_ = true;
+};
+
+/// The volumes of lamps, tiles of one atlas: directions, all or those towards the local media in range, with a
+/// border of one texel, times distances from the nearest to the farthest of these media. Each is kept until its
+/// lamp or those media change. Where lamps are more than the setting lamp_volume_count, those whose range ends
+/// nearest to the eye come first.
+class LampVolumes {
+  public:
+    void prepare(const Inputs& inputs, const Settings& settings, FrameMedia& media);
+    void release() { *this = {}; }
+    [[nodiscard]] const gl::Texture& texture() const { return texture_; }
+    [[nodiscard]] const gl::Buffer& table() const { return table_; }  ///< see light_transmittance.glsl
+    [[nodiscard]] bool stale() const;
+    [[nodiscard]] std::size_t left_out() const { return left_out_; }  ///< lamps that the limit leaves without
+    void fill(ShaderLibrary& shaders, bool count_work, const gl::Buffer& media, std::size_t media_count);
+
+  private:
+    struct Slot {
+        std::uint64_t key = 0;
+        LightRays rays;
+        bool used = false, stale = true;
+    };
+    struct Wanted;
+    void allocate(std::size_t count, int directions, bool chromatic);
+    Slot& slot_for(const Wanted& wanted);
+
+    gl::Texture texture_;
+    gl::Buffer table_;
+    std::vector<Slot> slots_;
+    std::vector<glm::vec4> entries_;  ///< of the table, two for each light
+    std::size_t left_out_ = 0;
+};
+
+/// Both, and what passes that sample them need.
+class LightVolumes {
+  public:
+    /// Before the uniforms are uploaded: writes the volumes' places into media.data.
+    void prepare(const Inputs& inputs, const Settings& settings, FrameMedia& media);
+    /// Adds the passes for what changed; says why for the others.
+    void add_passes(PassList& passes, ShaderLibrary& shaders, const Inputs& inputs);
+    void release();
+
+    /// Value of the axis LIGHT_VOLUMES: 1 sun, 2 lamps, 3 both.
+    [[nodiscard]] int axis() const { return (sun_.texture() ? 1 : 0) + (lamps_.texture() ? 2 : 0); }
+    [[nodiscard]] TextureRef sun() const { return sun_ref_; }
+    [[nodiscard]] TextureRef lamps() const { return lamps_ref_; }
+    void sample(PassBuilder& builder) const;
+    void bind() const;
+    [[nodiscard]] std::size_t bytes() const;
+
+  private:
+    SunVolume sun_;
+    LampVolumes lamps_;
+    gl::Buffer media_;
+    std::vector<shared::LocalMedium> uploaded_;
+    TextureRef sun_ref_, lamps_ref_;
+};
+
+/// Whether a combination of the axes LIGHT_VOLUMES, HAS_SUN and LAMPS can occur: where local media dim light, they
+/// dim the sun if it shines.
+[[nodiscard]] bool is_light_volume_permutation(const Permutation& permutation);
+
+}  // namespace tyndall::volumetrics

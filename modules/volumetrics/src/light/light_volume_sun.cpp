@@ -1,0 +1,80 @@
+#include <algorithm>
+#include <cstring>
+#include <limits>
+
+#include "light/light_volume.h"
+
+namespace tyndall::volumetrics {
+namespace {
+
+/// Half of what a medium covers along a unit direction, m.
+double half_extent_along(const LocalMedium& medium, glm::dvec3 direction) {
+    const glm::dmat3 rotation = glm::mat3_cast(glm::dquat(medium.rotation));
+    const glm::dvec3 parts = direction * rotation * glm::dvec3(medium.half_extent);
+    return medium.box ? std::abs(parts.x) + std::abs(parts.y) + std::abs(parts.z) : glm::length(parts);
+}
+
+glm::dmat3 axes_along(glm::dvec3 direction) {
+    const glm::dvec3 z = glm::normalize(direction);
+    const glm::dvec3 x =
+        glm::normalize(glm::cross(std::abs(z.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0), z));
+    return {x, glm::cross(z, x), z};
+}
+
+/// World to texture coordinates. Across the light the outermost texels lie outside of all media, so that clamping
+/// there gives 0; along it the centre of the first texel is where light enters the box and that of the last where
+/// it leaves.
+glm::dmat4 world_to_volume(std::span<const AttenuatingMedium> media, glm::dvec3 direction, glm::ivec3 size) {
+    const glm::dmat3 axes = axes_along(direction);
+    glm::dmat4 m(1);
+    for (int i = 0; i < 3; ++i) {
+        double low = std::numeric_limits<double>::max(), high = std::numeric_limits<double>::lowest();
+        for (const AttenuatingMedium& medium : media) {
+            const double center = glm::dot(axes[i], glm::dvec3(medium.medium.center));
+            const double half = half_extent_along(medium.medium, axes[i]);
+            low = std::min(low, center - half);
+            high = std::max(high, center + half);
+        }
+        const double inner = i == 2 ? size[i] - 1 : size[i] - 2, outer = i == 2 ? 0.5 : 1;
+        const double scale = inner / std::max(high - low, 1e-3);
+        for (int row = 0; row < 3; ++row) m[row][i] = axes[i][row] * scale / size[i];
+        m[3][i] = (outer - low * scale) / size[i];
+    }
+    return m;
+}
+
+bool same(const std::vector<shared::LocalMedium>& before, const std::vector<AttenuatingMedium>& now) {
+    return std::ranges::equal(before, now, [](const shared::LocalMedium& a, const AttenuatingMedium& b) {
+        return std::memcmp(&a, &b.packed, sizeof a) == 0;
+    });
+}
+
+}  // namespace
+
+void SunVolume::prepare(const Inputs& inputs, const Settings& settings, FrameMedia& media) {
+    if (!inputs.has_sun) return release();
+    const int across = settings.sun_volume_size;
+    const glm::ivec3 size{across, across, std::max(across / 2, 2)};
+    const bool resized =
+        !texture_ || texture_.desc().size != size || (texture_.desc().format == GL_RGBA16F) != media.chromatic;
+    if (resized) texture_ = light_volume_texture(size, media.chromatic, "volumetrics sun volume");
+    if (resized || direction_ != inputs.sun_direction || !same(media_, media.attenuating)) {
+        const glm::dvec3 direction =
+            glm::dot(inputs.sun_direction, inputs.sun_direction) > 0 ? inputs.sun_direction : glm::vec3(0, -1, 0);
+        const glm::dmat4 to_volume = world_to_volume(media.attenuating, direction, size);
+        world_to_volume_ = glm::mat4(to_volume);
+        rays_ = {.size = size, .volume_to_world = glm::mat4(glm::inverse(to_volume))};
+        direction_ = inputs.sun_direction;
+        media_.clear();
+        for (const AttenuatingMedium& medium : media.attenuating) media_.push_back(medium.packed);
+        stale_ = true;
+    }
+    media.data.world_to_sun_volume = world_to_volume_;
+}
+
+void SunVolume::fill(ShaderLibrary& shaders, bool count_work, const gl::Buffer& media, std::size_t media_count) {
+    fill_light_volume(shaders, count_work, texture_, media, media_count, std::span(&rays_, 1));
+    stale_ = false;
+}
+
+}  // namespace tyndall::volumetrics

@@ -1,0 +1,81 @@
+#include "media/froxel_tiles.h"
+
+#include <algorithm>
+
+namespace tyndall::volumetrics {
+
+ViewBounds view_bounds(const LocalMedium& medium, const Inputs& inputs) {
+    const glm::mat3 rotation = glm::mat3_cast(medium.rotation);
+    ViewBounds bounds;
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::vec3 side{(corner & 1) * 2 - 1, (corner & 2) - 1, (corner & 4) / 2 - 1};
+        const glm::vec4 view = inputs.view * glm::vec4(medium.center + rotation * (side * medium.half_extent), 1);
+        const float depth = -view.z;
+        bounds.nearest = std::min(bounds.nearest, depth);
+        bounds.farthest = std::max(bounds.farthest, depth);
+        if (depth <= 0) continue;
+        const glm::vec4 clip = inputs.projection * view;
+        const glm::vec2 uv = 0.5F * glm::vec2(clip) / clip.w + 0.5F;
+        bounds.lower = glm::min(bounds.lower, uv);
+        bounds.upper = glm::max(bounds.upper, uv);
+    }
+    if (bounds.nearest <= 0) {  // reaches behind the eye: its outline has no bounds
+        bounds.lower = glm::vec2(0);
+        bounds.upper = glm::vec2(1);
+    }
+    return bounds;
+}
+
+IndexBox froxel_bounds(const LocalMedium& medium, const Inputs& inputs, const FroxelGrid& grid) {
+    const ViewBounds bounds = view_bounds(medium, inputs);
+    if (bounds.farthest <= 0 || bounds.nearest >= grid.farthest) return {};
+    const auto w = [&](float depth) { return grid.w(std::max(depth, 0.0F)); };
+    // A froxel centre within half a froxel of the bound is taken too: rounding never loses one. In front of the
+    // first slice's centre the march reads the first slice, so a medium there still counts as in it.
+    const glm::vec3 size = grid.size;
+    const glm::vec3 lower = glm::clamp(glm::vec3(bounds.lower, w(bounds.nearest)), -1.0F, 2.0F) * size - 1.0F;
+    const glm::vec3 upper = glm::clamp(glm::vec3(bounds.upper, w(bounds.farthest)), -1.0F, 2.0F) * size + 1.0F;
+    IndexBox box{.lower = glm::max(glm::ivec3(glm::floor(lower)), 0),
+                 .upper = glm::min(glm::ivec3(glm::ceil(upper)), grid.size)};
+    return box;
+}
+
+glm::vec2 view_depths(std::span<const IndexBox> boxes, const FroxelGrid& grid) {
+    int first = grid.size.z, last = 0;
+    for (const IndexBox& box : boxes) {
+        first = std::min(first, box.lower.z);
+        last = std::max(last, box.upper.z);
+    }
+    const auto depth = [&](int slice) {
+        return grid.view_depth(static_cast<float>(slice) / static_cast<float>(grid.size.z));
+    };
+    return {first == 0 ? 0 : depth(first), depth(last)};
+}
+
+std::vector<std::uint32_t> live_tiles(std::span<const IndexBox> boxes, glm::ivec3 froxels) {
+    const glm::ivec3 tiles = (froxels + froxel_tile - 1) / froxel_tile;
+    const std::size_t words = (boxes.size() + 31) / 32;
+    std::vector<std::uint32_t> masks(words * static_cast<std::size_t>(tiles.x) * tiles.y * tiles.z);
+    const auto mask = [&](int x, int y, int z) {
+        return masks.begin() + static_cast<std::ptrdiff_t>(words) * (x + tiles.x * (y + tiles.y * z));
+    };
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+        const glm::ivec3 lower = boxes[i].lower / froxel_tile;
+        const glm::ivec3 upper = (boxes[i].upper + froxel_tile - 1) / froxel_tile;
+        for (int z = lower.z; z < upper.z; ++z)
+            for (int y = lower.y; y < upper.y; ++y)
+                for (int x = lower.x; x < upper.x; ++x) mask(x, y, z)[i / 32] |= 1U << (i % 32);
+    }
+    std::vector<std::uint32_t> live;
+    for (int z = 0; z < tiles.z; ++z)
+        for (int y = 0; y < tiles.y; ++y)
+            for (int x = 0; x < tiles.x; ++x) {
+                const auto first = mask(x, y, z), last = first + static_cast<std::ptrdiff_t>(words);
+                if (std::all_of(first, last, [](std::uint32_t word) { return word == 0; })) continue;
+                live.push_back(static_cast<std::uint32_t>(x | y << 10 | z << 20));
+                live.insert(live.end(), first, last);
+            }
+    return live;
+}
+
+}  // namespace tyndall::volumetrics

@@ -1,0 +1,221 @@
+#include "media/media.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "engine/core/error.h"
+#include "media/froxel_tiles.h"
+#include "reconstruction/noise.h"
+#include "reconstruction/reconstruction.h"
+#include "shaders/lib/glm_subset.h"
+
+TYNDALL_GLSL_BEGIN
+#include "shaders/lib/phase.glsl"
+TYNDALL_GLSL_END
+
+namespace tyndall::volumetrics {
+namespace {
+
+bool is_zero(glm::vec3 v) {
+    return v == glm::vec3(0);
+}
+template <class M>
+bool does_nothing(const M& medium) {
+    return is_zero(medium.sigma_s) && is_zero(medium.sigma_a) && is_zero(medium.emission);
+}
+/// No extent, or none that makes sense: it holds no point, and dividing by it would give NaN.
+bool is_empty(const LocalMedium& medium) {
+    return !glm::all(glm::greaterThan(medium.half_extent, glm::vec3(0)));
+}
+/// Beyond the rounding of sigma_s + sigma_a.
+bool is_coloured(glm::vec3 sigma_t) {
+    const float most = std::max({sigma_t.r, sigma_t.g, sigma_t.b});
+    return most - std::min({sigma_t.r, sigma_t.g, sigma_t.b}) > 1e-5F * most;
+}
+float mean(glm::vec3 v) {
+    return (v.r + v.g + v.b) / 3;
+}
+
+void add_homogeneous(const GlobalMedium& medium, shared::VolumetricsData& data) {
+    glm::vec4& s = data.homogeneous_sigma_s;
+    if (medium.rayleigh) {
+        data.homogeneous_rayleigh += glm::vec4(medium.sigma_s, 0);
+    } else {
+        const float before = std::max(mean(s - data.homogeneous_rayleigh), 0.0F), added = mean(medium.sigma_s);
+        if (before + added > 0) s.w = (s.w * before + medium.anisotropy * added) / (before + added);
+    }
+    s += glm::vec4(medium.sigma_s, 0);
+    data.homogeneous_sigma_t += glm::vec4(medium.sigma_s + medium.sigma_a, 0);
+    data.homogeneous_emission += glm::vec4(medium.emission, 0);
+}
+
+shared::HeightMedium pack_height(const GlobalMedium& medium) {
+    return {.sigma_s_base = {medium.sigma_s, medium.base},
+            .sigma_t_falloff = {medium.sigma_s + medium.sigma_a, medium.falloff},
+            .emission_g = {medium.emission, medium.rayleigh ? 0.0F : medium.anisotropy},
+            .sigma_s_rayleigh = {medium.rayleigh ? medium.sigma_s : glm::vec3(0), 0}};
+}
+
+shared::LocalMedium pack_local(const LocalMedium& medium) {
+    const glm::mat4 rotation = glm::mat4_cast(glm::conjugate(medium.rotation));
+    const bool noise = medium.noise_scale > 0 && medium.noise_amount > 0;
+    return {.world_to_shape = glm::translate(rotation, -medium.center),
+            .extent_softness = {medium.half_extent, medium.softness},
+            .sigma_s_g = {medium.sigma_s, medium.anisotropy},
+            .sigma_a_shape = {medium.sigma_a, medium.box ? SHAPE_BOX : SHAPE_ELLIPSOID},
+            .emission_noise = {medium.emission, noise ? medium.noise_amount : 0.0F},
+            .noise_height = {medium.noise_scale, static_cast<float>(medium.noise_seed), medium.base,
+                             medium.height ? medium.falloff : 0.0F}};
+}
+
+void add_global(const Inputs& inputs, FrameMedia& media) {
+    std::size_t heights = 0;
+    for (const GlobalMedium& medium : inputs.global) {
+        if (does_nothing(medium)) continue;
+        media.has_global = true;
+        media.rayleigh |= medium.rayleigh;
+        media.chromatic |= medium.rayleigh || is_coloured(medium.sigma_s + medium.sigma_a);
+        if (!medium.height)
+            add_homogeneous(medium, media.data);
+        else if (heights++ < MAX_HEIGHT_MEDIA)
+            media.data.height[heights - 1] = pack_height(medium);
+    }
+    if (heights > MAX_HEIGHT_MEDIA)
+        throw Error(fmt::format("volumetrics: {} height media, at most {} expected", heights, MAX_HEIGHT_MEDIA));
+    media.data.counts.x = static_cast<unsigned>(heights);
+}
+
+void add_local(const LocalMedium& medium, FrameMedia& media) {
+    media.local.push_back(pack_local(medium));
+    media.local_emission |= !is_zero(medium.emission);
+    media.chromatic |= is_coloured(medium.sigma_s + medium.sigma_a);
+}
+
+void add_local_in_view(const Inputs& inputs, const FroxelGrid& grid, FrameMedia& media) {
+    for (const LocalMedium& medium : inputs.local) {
+        if (does_nothing(medium) || is_empty(medium)) continue;
+        const IndexBox box = froxel_bounds(medium, inputs, grid);
+        if (box.empty()) continue;
+        add_local(medium, media);
+        media.local_froxels.push_back(box);
+    }
+}
+
+/// All, also those that only attenuate light on its way to another: if any is in view, or a global medium is.
+void add_all_local(const Inputs& inputs, const FroxelGrid& froxels, FrameMedia& media) {
+    FroxelGrid grid = froxels;
+    grid.farthest = 1e9F;
+    bool seen = media.has_global;
+    for (const LocalMedium& medium : inputs.local) {
+        if (does_nothing(medium)) continue;
+        add_local(medium, media);
+        if (inputs.transparents)
+            media.local_froxels.push_back(is_empty(medium) ? IndexBox() : froxel_bounds(medium, inputs, froxels));
+        seen |= !froxel_bounds(medium, inputs, grid).empty();
+    }
+    if (seen) return;
+    media.local.clear();
+    media.local_froxels.clear();
+}
+
+/// Whatever the view: what dims the light of a place in view may be out of it, and volumes of all media outlast a
+/// turn of the camera.
+void add_attenuating(const Inputs& inputs, FrameMedia& media) {
+    for (const LocalMedium& medium : inputs.local) {
+        if (is_zero(medium.sigma_s + medium.sigma_a) || is_empty(medium)) continue;
+        AttenuatingMedium added{medium, pack_local(medium)};
+        added.packed.sigma_s_g.w = 0;
+        added.packed.emission_noise = {0, 0, 0, added.packed.emission_noise.w};
+        media.attenuating.push_back(added);
+        media.chromatic |= is_coloured(medium.sigma_s + medium.sigma_a);
+    }
+}
+
+void add_local(const Inputs& inputs, const Settings& settings, FrameMedia& media) {
+    const FroxelGrid grid = froxel_grid(inputs, settings);
+    if (settings.technique == Technique::reference)
+        add_all_local(inputs, grid, media);
+    else
+        add_local_in_view(inputs, grid, media);
+    media.data.counts.y = static_cast<unsigned>(media.local.size());
+    media.data.options.w = static_cast<unsigned>(grid.distribution);
+    media.data.froxel_begins = grid.begins;
+    media.data.froxel_lengths = grid.lengths;
+    media.data.medium_depths = {0, 1e9F, 0, 0};
+    if (!media.has_global && !media.local_froxels.empty() && settings.technique != Technique::reference)
+        media.data.medium_depths = glm::vec4(view_depths(media.local_froxels, grid), 0, 0);
+    media.data.froxel_depths = {grid.nearest, grid.farthest, 0, 0};
+}
+
+/// Segment i of N has the length first * ratio^i of the ray, which sums to 1; the last is ratio^(N-1) = e^strength
+/// times the first. Strength 0 is uniform.
+void set_stepping(const Settings& settings, shared::VolumetricsData& data) {
+    const double n = settings.steps;
+    double first = 1 / n, ratio = 1;
+    if (settings.stepping == Stepping::exponential && settings.steps > 1) {
+        const double growth = settings.stepping_strength / (n - 1);
+        ratio = std::exp(growth);
+        first = std::expm1(growth) / std::expm1(growth * n);
+    }
+    data.march = {settings.max_distance, first, ratio, 0};
+}
+
+/// The techniques in closed form know only media that fill space.
+bool has_local_media(Technique technique) {
+    return technique != Technique::analytic_fog && technique != Technique::radial_shafts;
+}
+
+void set_view(const Inputs& inputs, const Settings& settings, shared::VolumetricsData& data) {
+    data.inverse_projection = glm::inverse(inputs.projection);
+    data.inverse_view = glm::inverse(inputs.view);
+    data.eye = {inputs.eye, inputs.znear};
+    const glm::vec2 size = inputs.size;
+    data.viewport = {size, 1.0F / size};
+    const int factor = resolution_factor(settings);
+    data.target = {(inputs.size + factor - 1) / factor, static_cast<float>(factor) / size};
+}
+
+unsigned phase_option(PhaseFunction phase) {
+    switch (phase) {
+        case PhaseFunction::henyey_greenstein:
+            return glsl::PHASE_HENYEY_GREENSTEIN;
+        case PhaseFunction::schlick:
+            return glsl::PHASE_SCHLICK;
+        case PhaseFunction::cornette_shanks:
+            return glsl::PHASE_CORNETTE_SHANKS;
+        case PhaseFunction::double_henyey_greenstein:
+            return glsl::PHASE_DOUBLE_HENYEY_GREENSTEIN;
+    }
+    return glsl::PHASE_ISOTROPIC;
+}
+
+}  // namespace
+
+FrameMedia gather_media(const Inputs& inputs, const Settings& settings) {
+    FrameMedia media;
+    if (settings.technique == Technique::off) return media;
+    add_global(inputs, media);
+    if (has_local_media(settings.technique)) {
+        add_local(inputs, settings, media);
+        if (settings.light_transmittance && (inputs.has_sun || inputs.has_lamps)) add_attenuating(inputs, media);
+    }
+    if (media.empty() && media.attenuating.empty()) return media;
+    set_view(inputs, settings, media.data);
+    set_stepping(settings, media.data);
+    media.data.march.w = media.chromatic && !media.local.empty() ? 1.0F : 0.0F;
+    media.data.counts.z = static_cast<unsigned>(settings.steps);
+    media.data.counts.w = static_cast<unsigned>(noise_side(settings));
+    media.data.noise = noise_uniform(settings, inputs.frame_index);
+    media.data.options.x = phase_option(settings.phase);
+    media.data.phase_back = {settings.phase_back_anisotropy, settings.phase_back_weight, 0, 0};
+    media.data.options.y = settings.light_transmittance ? 1U : 0U;
+    media.data.options.z = inputs.has_ambient ? 1U : 0U;
+    media.data.fog = {static_cast<float>(settings.fog_mode), settings.radial_samples, settings.radial_decay,
+                      settings.radial_unseen};
+    return media;
+}
+
+}  // namespace tyndall::volumetrics

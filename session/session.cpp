@@ -1,0 +1,52 @@
+#include "session/session.h"
+
+#include <CLI/CLI.hpp>
+
+#include "engine/core/files.h"
+#include "engine/core/log.h"
+
+namespace tyndall {
+
+void DrawOptions::add_to(CLI::App& command, const std::string& default_scene, const std::string& default_size) {
+    SceneOptions::add_to(command, default_scene, default_size);
+    command.add_option("--context", context, "auto, egl, osmesa or glfw")->capture_default_str();
+}
+
+Session::Session(const DrawOptions& o, bool window) : size(o.pixels()) {
+    settings.add(volumetrics::settings_table(), &options.volumetrics);
+    settings.add(render_settings_table(), &options.render);
+    o.apply(settings);
+    ContextRequest request;
+    request.kind = parse_context_kind(o.context);
+    request.size = size;
+    request.window = window;
+
+    scene = o.load();
+    if (window) {
+        add_missing_sun(scene);
+        animate(scene, 0);
+    }
+    context = create_context(request);
+    shaders = std::make_unique<ShaderLibrary>(data_root());
+    timer = std::make_unique<gl::GpuTimer>(gl::TimerMode::off);
+    renderer = std::make_unique<Renderer>(*shaders);
+    renderer->prepare(scene, context->capabilities().software ? 1.0f : 4.0f);
+    options.timer = timer.get();
+    const volumetrics::Settings& v = options.volumetrics;
+    if (context->capabilities().software && v.technique == volumetrics::Technique::ray_march && v.steps > 256)
+        spdlog::warn(
+            "on this driver shaders lose light where loops are long: {} steps among many lamps are too many",
+            v.steps);
+}
+
+void Session::draw(const View& view, double time) {
+    options.time = time;
+    renderer->render(scene, view, size, options);
+    ++options.frame_index;
+}
+
+gl::TimerMode Session::timer_mode() const {
+    return context->capabilities().software ? gl::TimerMode::finish : gl::TimerMode::query;
+}
+
+}  // namespace tyndall

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <glm/glm.hpp>
+#include <memory>
+#include <string>
+
+#include "engine/core/settings.h"
+#include "engine/platform/gl_context.h"
+#include "engine/render/renderer.h"
+#include "engine/scene/scene.h"
+#include "session/scene_options.h"
+
+namespace tyndall {
+
+/// The options that every command which draws with GL shares.
+struct DrawOptions : SceneOptions {
+    std::string context = "auto";
+    void add_to(CLI::App& command, const std::string& default_scene, const std::string& default_size);
+};
+
+/// A scene with its settings, ready to be drawn: what `play`, `render` and `flythrough` have in common.
+/// Construction order: settings (usage errors first), scene, context, renderer.
+class Session {
+  public:
+    /// `window` asks for a visible one. Throws UsageError or Error.
+    Session(const DrawOptions& options, bool window);
+
+    SettingsSet settings;  ///< all of `options`' settings, by key
+    FrameOptions options;
+    Scene scene;
+    glm::ivec2 size;
+    std::unique_ptr<GlContext> context;
+    std::unique_ptr<ShaderLibrary> shaders;
+    std::unique_ptr<gl::GpuTimer> timer;
+    std::unique_ptr<Renderer> renderer;
+
+    /// Animates to `time` and draws one frame.
+    void draw(const View& view, double time);
+    /// Timer mode that is right for this driver: queries on real ones, finish-to-finish on software rasterisers.
+    [[nodiscard]] gl::TimerMode timer_mode() const;
+};
+
+}  // namespace tyndall

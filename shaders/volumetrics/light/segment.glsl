@@ -1,0 +1,116 @@
+// A segment of the march apart from what is sampled: its medium's optics, the sun over it, and the tail behind the march.
+#ifndef VOLUMETRICS_SEGMENT_GLSL
+#define VOLUMETRICS_SEGMENT_GLSL
+
+#include "shaders/interface/lights.glsl"
+#include "shaders/lib/work.glsl"
+#include "shaders/volumetrics/media/extinction.glsl"
+#include "shaders/volumetrics/light/light_transmittance.glsl"
+#include "shaders/volumetrics/frame/ray.glsl"
+#include "shaders/volumetrics/media/scattering.glsl"
+
+struct March {
+    vec3 radiance;
+    Extinction transmittance;
+};
+
+struct Optics {
+    Extinction depth;
+    Extinction transmittance;
+    Extinction effective_length;  // int T dt over the segment, m
+};
+
+Optics medium_optics(Medium m, float path_length) {
+    Optics optics;
+    optics.depth = to_extinction(m.optical_depth);
+    optics.transmittance = exp(-optics.depth);
+    optics.effective_length = path_length * mean_transmittance(optics.depth, optics.transmittance);
+    return optics;
+}
+
+#if HAS_SUN
+// The sun over a segment, unshadowed. Along the ray both the optical depth from the segment's front and that towards the
+// sun are affine in the density of a height medium, so the sum of the two is taken to run linearly from the front,
+// where it is `front`, to front + x: exact for one height medium, and for homogeneous media.
+struct SunSegment {
+    float x;
+    Extinction effective_length;  // int exp(-sum) dt, m
+};
+
+SunSegment sun_between(Extinction depth, Extinction front, Extinction back, float path_length) {
+    Extinction x = depth + back - front;
+    Extinction low = min(front, depth + back);
+    Extinction size = abs(x);
+    SunSegment s;
+    s.x = average(x);
+    s.effective_length = path_length * exp(-low) * mean_transmittance(size, exp(-size));
+    return s;
+}
+
+// `front`: the optical depth towards the sun at a; becomes that at b.
+SunSegment sun_segment(Ray ray, float a, float b, Optics optics, inout Extinction front) {
+#if HEIGHT_MEDIA
+    Extinction back = to_extinction(sun_optical_depth(ray.origin.y + ray.direction.y * b, -sun_direction()));
+    SunSegment sun = sun_between(optics.depth, front, back, b - a);
+    front = back;
+    return sun;
+#else
+    return SunSegment(average(optics.depth), optics.effective_length);
+#endif
+}
+
+vec3 sun_scattering(Ray ray, Medium m, Extinction effective_length) {
+    return sun_illuminance() * volume_scattering(m, -dot(sun_direction(), ray.direction)) * effective_length;
+}
+#endif
+
+// Light of global media under ambient light and an unshadowed sun over [begin, end]. sun_front: the optical depth
+// towards the sun at `begin`; becomes that at `end`.
+void add_global(Ray ray, float begin, float end, vec3 ambient, inout Extinction sun_front, inout March march) {
+    Medium m = global_medium(ray.origin.y + ray.direction.y * begin, ray.direction.y, end - begin);
+    count_work(WORK_MEDIUM_SAMPLES, 1u);
+    Optics optics = medium_optics(m, end - begin);
+    vec3 gathered = (m.sigma_s * ambient + m.emission) * optics.effective_length;
+#if HAS_SUN
+    SunSegment sun = sun_segment(ray, begin, end, optics, sun_front);
+    gathered += sun_scattering(ray, m, sun.effective_length);
+#endif
+    march.radiance += march.transmittance * gathered;
+    march.transmittance *= optics.transmittance;
+}
+
+// Where a height medium and a thin haze share an endless tail, the one ends long before the other: each is closed form,
+// their product is not. Parts of growing length make of 6% (an endless sky) 0.2%.
+const int TAIL_PARTS = 5;
+const float TAIL_GROWTH = 5.0;
+const float TAIL_FIRST_PART = 4.0 / 3124.0;  // (growth - 1) / (growth^parts - 1)
+
+// Global media between the end of the march and the surface, or without end where there is none.
+void march_tail(Ray ray, float begin, float end, bool endless, vec3 ambient, Extinction sun_front, inout March march) {
+    // What lies behind an optical depth of 16 cannot be seen: source and sun are taken from what lies before.
+    Extinction sigma_t = to_extinction(volumetrics.homogeneous_sigma_t.rgb);
+    float visible_end = min(end, begin + 16.0 / max(largest(sigma_t), 1.0e-30));
+    Extinction before = march.transmittance;
+#if HEIGHT_MEDIA
+    float part_begin = begin;
+    float part_length = (visible_end - begin) * TAIL_FIRST_PART;
+    for (int i = 1; i < TAIL_PARTS; ++i) {
+        add_global(ray, part_begin, part_begin + part_length, ambient, sun_front, march);
+        part_begin += part_length;
+        part_length *= TAIL_GROWTH;
+    }
+    add_global(ray, part_begin, visible_end, ambient, sun_front, march);
+#else
+    add_global(ray, begin, visible_end, ambient, sun_front, march);
+#endif
+#if CHROMATIC
+    // The clearest channel shows more.
+    float clearest_end = min(end, begin + 16.0 / max(smallest(sigma_t), 1.0e-30));
+    if (clearest_end > visible_end) add_global(ray, visible_end, clearest_end, ambient, sun_front, march);
+#endif
+    vec3 depth = height_optical_depth(ray.origin.y + ray.direction.y * begin, ray.direction.y, end - begin) +
+                 volumetrics.homogeneous_sigma_t.rgb * (endless ? MAX_OPTICAL_DEPTH : end - begin);
+    march.transmittance = before * exp(-to_extinction(depth));
+}
+
+#endif

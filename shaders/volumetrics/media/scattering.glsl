@@ -1,0 +1,23 @@
+// How a medium scatters into a direction.
+#ifndef VOLUMETRICS_SCATTERING_GLSL
+#define VOLUMETRICS_SCATTERING_GLSL
+
+#include "shaders/lib/phase.glsl"
+#include "shaders/volumetrics/media/global_media.glsl"
+
+// The phase function of the settings, which all media have but those of Rayleigh's.
+float particle_phase(float anisotropy, float cos_theta) {
+    return phase(int(volumetrics.options.x), anisotropy, volumetrics.phase_back.x, volumetrics.phase_back.y, cos_theta);
+}
+
+// The volume scattering function [1/(m sr)]: scattering coefficient times phase function, summed over the media. For
+// ambient light, which comes from everywhere alike, it is sigma_s whatever the phase.
+vec3 volume_scattering(Medium m, float cos_theta) {
+    vec3 sum = particle_sigma_s(m) * particle_phase(m.anisotropy, cos_theta);
+#if RAYLEIGH
+    sum += m.sigma_s_rayleigh * phase_rayleigh(cos_theta);
+#endif
+    return sum;
+}
+
+#endif
