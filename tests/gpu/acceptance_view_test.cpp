@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "engine/core/files.h"
 #include "engine/render/renderer.h"
 #include "support/gl_test.h"
 #include "support/test_scene.h"
@@ -49,7 +50,7 @@ class AcceptanceView : public GlTest {
     glm::ivec2 size_{75, 50};
     float eye_x_ = 0;
     FrameOptions options_;
-    ShaderLibrary shaders_{TYNDALL_SOURCE_DIR};
+    ShaderLibrary shaders_{data_root()};
     Renderer renderer_{shaders_};
 };
 

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/core/error.h"
+#include "engine/core/files.h"
 #include "engine/gl/readback.h"
 #include "engine/render/renderer.h"
 #include "support/gl_test.h"
@@ -118,7 +119,7 @@ class BadNumbers : public GlTest {
 
   private:
     fs::path folder_;
-    ShaderLibrary shaders_{TYNDALL_SOURCE_DIR};
+    ShaderLibrary shaders_{data_root()};
     Renderer renderer_{shaders_};
 };
 

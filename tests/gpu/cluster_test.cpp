@@ -7,6 +7,7 @@
 #include <random>
 #include <set>
 
+#include "engine/core/files.h"
 #include "engine/render/passes/depth_pyramid.h"
 #include "shaders/engine/visible_lights.h"
 #include "shaders/shared/bindings.h"
@@ -135,7 +136,7 @@ class Cluster : public GlTest {
     shared::FrameData frame_{};
     LightSet lights_;
     ClusterPass cluster_;
-    ShaderLibrary shaders_{TYNDALL_SOURCE_DIR};
+    ShaderLibrary shaders_{data_root()};
 };
 
 TEST_F(Cluster, EveryLampThatLightsAPointIsInItsListAndInOrder) {

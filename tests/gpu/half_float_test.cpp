@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/core/files.h"
 #include "engine/gl/readback.h"
 #include "engine/render/renderer.h"
 #include "support/gl_test.h"
@@ -43,7 +44,7 @@ class HalfFloat : public GlTest {
 
     test::SceneBuilder builder_;
     View view_ = look_at({0, 2, 6}, {0, 1.5f, 0}, 1.0f, 0.1f, 1.5f);
-    ShaderLibrary shaders_{TYNDALL_SOURCE_DIR};
+    ShaderLibrary shaders_{data_root()};
     Renderer renderer_{shaders_};
 };
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/core/files.h"
 #include "engine/render/renderer.h"
 #include "support/gl_test.h"
 #include "support/test_scene.h"
@@ -51,7 +52,7 @@ class Lighting : public GlTest {
     test::SceneBuilder builder_;
     View view_ = look_at({0, 4, 1}, {0, 0, 0}, 1.0f, 0.1f, 1.0f);
     FrameOptions options_;
-    ShaderLibrary shaders_{TYNDALL_SOURCE_DIR};
+    ShaderLibrary shaders_{data_root()};
     Renderer renderer_{shaders_};
     static constexpr glm::dvec3 up{0, 1, 0};
 };

@@ -7,6 +7,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <optional>
 
+#include "engine/core/files.h"
 #include "engine/gl/readback.h"
 #include "engine/render/renderer.h"
 #include "support/gl_test.h"
@@ -88,7 +89,7 @@ class Motion : public GlTest {
     glm::ivec2 size_ = size;
     glm::dvec3 eye_{0, 0, 8};
     FrameOptions options_;
-    ShaderLibrary shaders_{TYNDALL_SOURCE_DIR};
+    ShaderLibrary shaders_{data_root()};
     Renderer renderer_{shaders_};
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <random>
 
+#include "engine/core/files.h"
 #include "engine/gl/readback.h"
 #include "engine/render/passes/depth_pyramid.h"
 #include "support/gl_test.h"
@@ -49,7 +50,7 @@ class DepthPyramid : public GlTest {
         passes.execute(pool);
         return levels;
     }
-    ShaderLibrary shaders_{TYNDALL_SOURCE_DIR};
+    ShaderLibrary shaders_{data_root()};
 };
 
 TEST_F(DepthPyramid, EachTexelIsTheFarthestOfExactlyThePixelsThatMapToIt) {

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "engine/core/error.h"
+#include "engine/core/files.h"
 #include "support/gl_test.h"
 #include "support/test_scene.h"
 
@@ -51,7 +52,7 @@ class RendererTest : public GlTest {
     glm::ivec2 size_{96, 64};
     View view_ = look_at({0, 2, 8}, {0, 1, 0}, 1.0f, 0.1f, 1.5f);
     FrameOptions options_;
-    ShaderLibrary shaders_{TYNDALL_SOURCE_DIR};
+    ShaderLibrary shaders_{data_root()};
     Renderer renderer_{shaders_};
     bool prepared_ = false;
 };

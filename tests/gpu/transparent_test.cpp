@@ -7,6 +7,7 @@
 #include <cmath>
 #include <memory>
 
+#include "engine/core/files.h"
 #include "engine/render/renderer.h"
 #include "support/gl_test.h"
 #include "support/test_scene.h"
@@ -20,7 +21,7 @@ class Transparent : public GlTest {
   protected:
     /// One for all: most of the time is the compiler's.
     static ShaderLibrary& shaders() {
-        if (!shaders_) shaders_ = std::make_unique<ShaderLibrary>(TYNDALL_SOURCE_DIR);
+        if (!shaders_) shaders_ = std::make_unique<ShaderLibrary>(data_root());
         return *shaders_;
     }
     static void TearDownTestSuite() {

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <fstream>
 
+#include "engine/core/files.h"
 #include "engine/core/image.h"
 #include "support/command.h"
 #include "support/scenes.h"
@@ -169,7 +170,7 @@ TEST_F(ReferenceCommand, RefusesInOneLine) {
 /// project.
 std::filesystem::path test_data() {
     if (const char* named = std::getenv("TYNDALL_TEST_DATA")) return named;
-    return std::filesystem::path(TYNDALL_SOURCE_DIR) / ".." / "shared" / "data";
+    return data_root() / ".." / "shared" / "data";
 }
 
 // A room with a slatted wall under the sun: pictures of an independent integrator (single scattering by quadrature,

@@ -4,6 +4,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "engine/core/files.h"
 #include "support/command.h"
 
 namespace tyndall::test {
@@ -12,7 +13,7 @@ namespace {
 TEST(SettingsDocument, IsWhatTheProgramPrints) {
     const CommandResult result = run_tyndall({"list", "settings", "--markdown"});
     ASSERT_EQ(result.exit_code, 0) << result.err;
-    std::ifstream file(TYNDALL_SOURCE_DIR "/docs/settings.md");
+    std::ifstream file(data_root() / "docs/settings.md");
     std::stringstream text;
     text << file.rdbuf();
     EXPECT_NE(text.str().find(result.out), std::string::npos)

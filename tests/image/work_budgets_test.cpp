@@ -11,6 +11,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "engine/core/files.h"
 #include "support/command.h"
 #include "support/scenes.h"
 
@@ -49,7 +50,7 @@ TEST_P(WorkBudgets, AreKept) {
     const WorkBudget& row = GetParam();
     std::vector<std::string> arguments = row.arguments;
     for (std::string& a : arguments)
-        if (a.starts_with("assets/") || a.starts_with("tests/")) a = TYNDALL_SOURCE_DIR "/" + a;
+        if (a.starts_with("assets/") || a.starts_with("tests/")) a = (data_root() / a).string();
     const json work = work_of(arguments);
     if (std::getenv("TYNDALL_WRITE_WORK_BUDGETS") != nullptr) {
         std::vector<WorkBudget> rows = read_work_budgets();

@@ -12,6 +12,8 @@
 #include <cstdlib>
 #include <stdexcept>
 
+#include "engine/core/files.h"
+
 namespace tyndall::test {
 namespace {
 
@@ -99,7 +101,7 @@ TemporaryFolder::~TemporaryFolder() {
 }
 
 std::string level() {
-    return TYNDALL_SOURCE_DIR "/assets/levels/abbey.glb";
+    return (data_root() / "assets/levels/abbey.glb").string();
 }
 
 }  // namespace tyndall::test

@@ -2,13 +2,15 @@
 
 #include <fstream>
 
+#include "engine/core/files.h"
+
 namespace tyndall::test {
 namespace {
 
 using nlohmann::json;
 using nlohmann::ordered_json;
 
-constexpr const char* table = TYNDALL_SOURCE_DIR "/tests/image/work_budgets.json";
+const std::filesystem::path table = data_root() / "tests/image/work_budgets.json";
 
 }  // namespace
 

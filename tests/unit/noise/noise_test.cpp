@@ -23,7 +23,7 @@ Volume read(const std::filesystem::path& path) {
     return volume;
 }
 Volume committed(const std::string& name) {
-    return read(std::filesystem::path(TYNDALL_SOURCE_DIR) / "assets/noise" / (name + "_128x128x32_r8.raw"));
+    return read(data_root() / "assets/noise" / (name + "_128x128x32_r8.raw"));
 }
 Volume white() {
     std::mt19937 random(1);
@@ -111,9 +111,7 @@ TEST(NoiseTextures, SpectraAreBlueInSpaceAndWhereMeantInTime) {
 /// The folder of textures that others publish.
 std::filesystem::path published_folder() {
     const char* data = std::getenv("TYNDALL_TEST_DATA");
-    return (data != nullptr ? std::filesystem::path(data)
-                            : std::filesystem::path(TYNDALL_SOURCE_DIR).parent_path() / "shared/data") /
-           "noise";
+    return (data != nullptr ? std::filesystem::path(data) : data_root().parent_path() / "shared/data") / "noise";
 }
 
 /// At most 5% more variance, of the values behind the filters of which `spatial` is one, and of what a shadow's

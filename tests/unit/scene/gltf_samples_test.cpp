@@ -13,7 +13,7 @@ namespace {
 /// Files from outside the project, beside its folder; absent in a fresh clone.
 class GltfSamples : public testing::Test {
   protected:
-    std::filesystem::path data = std::filesystem::path(TYNDALL_SOURCE_DIR) / "../shared/data";
+    std::filesystem::path data = data_root() / "../shared/data";
     void SetUp() override {
         if (!std::filesystem::exists(data / "scenes/Box.glb"))
             GTEST_SKIP() << "no test data in " << data.lexically_normal();
