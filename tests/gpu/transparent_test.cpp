@@ -171,7 +171,7 @@ TEST_F(TransparentFog, HasClosedFormInAHomogeneousMedium) {
     const double expected = s(8) + t(8) * (a * pane_light + (1 - a) * (s(far - 8) + t(far - 8) * wall));
     for (const char* technique : {"froxel", "reference"}) {
         options_.volumetrics.technique = technique;
-        expect_close(middle(), glm::dvec3(expected), 0.004, "technique " + std::to_string(int(technique)));
+        expect_close(middle(), glm::dvec3(expected), 0.004, std::string("technique ") + technique);
     }
 }
 

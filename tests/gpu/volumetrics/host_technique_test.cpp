@@ -79,8 +79,10 @@ TEST_F(HostTechnique, IsReconstructedAsAllOthersAreAndTellsLitFromDark) {
 }
 
 TEST_F(HostTechnique, ANameIsTakenOnce) {
-    EXPECT_THROW(register_technique({.name = "one_sample", .help = "", .settings = "", .passes = {}, .add = {}}), Error);
-    EXPECT_THROW(register_technique({.name = "froxel", .help = "", .settings = "", .passes = {}, .add = {}}), Error);
+    EXPECT_THROW(register_technique({.name = "one_sample", .help = "", .settings = "", .passes = {}, .add = {}}),
+                 Error);
+    EXPECT_THROW(register_technique({.name = "froxel", .help = "", .settings = "", .passes = {}, .add = {}}),
+                 Error);
     settings.technique = "two_samples";
     EXPECT_THROW((void)host.render(settings), UsageError);
 }
