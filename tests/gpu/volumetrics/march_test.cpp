@@ -19,6 +19,21 @@ class VolumetricsMarch : public GlTest {
     StubHost host;
 };
 
+std::vector<Technique> every_technique_but(Technique absent) {
+    std::vector<Technique> techniques;
+    for (std::size_t i = 0; i < volumetrics::technique_names().size(); ++i)
+        if (const auto technique = static_cast<Technique>(i); technique != Technique::off && technique != absent)
+            techniques.push_back(technique);
+    return techniques;
+}
+std::vector<Technique> every_technique() {
+    return every_technique_but(Technique::off);
+}
+
+std::string name_of(const testing::TestParamInfo<Technique>& info) {
+    return volumetrics::technique_names().at(static_cast<std::size_t>(info.param));
+}
+
 /// What every technique must get right whatever its number of samples.
 class VolumetricsClosedForm : public VolumetricsMarch, public testing::WithParamInterface<Technique> {
   protected:
@@ -26,14 +41,19 @@ class VolumetricsClosedForm : public VolumetricsMarch, public testing::WithParam
         Settings settings = test::plain_settings(steps);
         settings.technique = GetParam();
         settings.froxels_x = 64;
+        settings.particle_count = settings.particle_local_count = 4096;
         return settings;
     }
+    /// Relative error. Sheets add up in half floats: 0.5%.
+    [[nodiscard]] static double tolerance() { return GetParam() == Technique::billboards ? 5e-3 : 1e-3; }
 };
-INSTANTIATE_TEST_SUITE_P(Techniques, VolumetricsClosedForm,
-                         testing::Values(Technique::ray_march, Technique::froxel, Technique::analytic_fog),
-                         [](const auto& info) {
-                             return volumetrics::technique_names().at(static_cast<std::size_t>(info.param));
-                         });
+INSTANTIATE_TEST_SUITE_P(Techniques, VolumetricsClosedForm, testing::ValuesIn(every_technique()), name_of);
+
+/// The same of the sun's light where it comes from all along the ray. Not of particles, which sample it: with
+/// anisotropy, or where fog takes more of one colour than of another, a pixel of theirs is up to 77% off.
+class VolumetricsSunClosedForm : public VolumetricsClosedForm {};
+INSTANTIATE_TEST_SUITE_P(Techniques, VolumetricsSunClosedForm,
+                         testing::ValuesIn(every_technique_but(Technique::particles)), name_of);
 
 double relative(double value, double expected) {
     return std::abs(value - expected) / std::abs(expected);
@@ -85,7 +105,7 @@ TEST_P(VolumetricsClosedForm, EmissionIsAttenuatedOnTheWayOut) {
     }
 }
 
-TEST_P(VolumetricsClosedForm, SunWithoutOccludersFollowsTheClosedForm) {
+TEST_P(VolumetricsSunClosedForm, SunWithoutOccludersFollowsTheClosedForm) {
     host.has_sun = true;
     host.sun_direction = glm::normalize(glm::vec3(0.3F, -0.5F, 0.6F));
     host.sun_illuminance = {10000, 20000, 40000};
@@ -111,13 +131,12 @@ TEST_P(VolumetricsClosedForm, SunWithoutOccludersFollowsTheClosedForm) {
 }
 
 TEST_P(VolumetricsClosedForm, VanishingExtinctionKeepsTheScattering) {
-    host.has_sun = true;
-    host.sun_direction = {0, 0, 1};
+    host.has_sun = true;  // above, and not behind the wall that radial_shafts would see before it
     host.sun_illuminance = glm::vec3(1e7F);
     host.global = {{.sigma_s = glm::vec3(1e-8F)}};
     const Frame frame = host.render(plain_settings(8));
     EXPECT_LE(relative(frame.scattering.at(0, 0)[0], 1e7 * 1e-8 * 10 / (4 * pi)), 1e-3);
-    EXPECT_EQ(frame.transmittance.at(0, 0)[0], 1);
+    EXPECT_NEAR(frame.transmittance.at(0, 0)[0], 1, 2e-7);
 }
 
 TEST_P(VolumetricsClosedForm, AmbientIsScatteredIsotropically) {
@@ -128,7 +147,7 @@ TEST_P(VolumetricsClosedForm, AmbientIsScatteredIsotropically) {
         EXPECT_LE(relative(frame.scattering.at(0, 0)[c], host.ambient[c] * 0.5 * -std::expm1(-2.0)), 1e-3);
 }
 
-TEST_P(VolumetricsClosedForm, SchlickApproximatesHenyeyGreenstein) {
+TEST_P(VolumetricsSunClosedForm, SchlickApproximatesHenyeyGreenstein) {
     host.has_sun = true;
     host.sun_direction = glm::normalize(glm::vec3(1, 0, 1));
     host.global = {{.sigma_s = glm::vec3(1e-6F), .anisotropy = 0.4F}};
@@ -145,7 +164,7 @@ struct HeightCase {
     float eye_y, pitch_pixels, base, falloff, homogeneous;
 };
 
-TEST_P(VolumetricsClosedForm, HeightMediumAgreesWithQuadrature) {
+TEST_P(VolumetricsSunClosedForm, HeightMediumAgreesWithQuadrature) {
     host.has_sun = true;
     host.sun_direction = glm::normalize(glm::vec3(0.4F, -0.6F, 0.2F));
     host.sun_illuminance = glm::vec3(1000);
@@ -183,10 +202,11 @@ TEST_P(VolumetricsClosedForm, HeightMediumAgreesWithQuadrature) {
                 };
                 const double cos_theta = -glm::dot(glm::dvec3(host.sun_direction), d);
                 const double expected = 1000 * phase_hg(0.3, cos_theta) * integrate(integrand, 0, length);
-                // One medium is exact, a mixture is not; nor is what lies between the columns of froxels.
-                const bool froxel = GetParam() == Technique::froxel;
-                const double tolerance = homogeneous > 0 ? 0.02 : froxel ? 0.007 : 1e-3;
-                EXPECT_LE(relative(frame.scattering.at(0, 8 - y)[0], expected), tolerance)
+                // One medium is exact, a mixture is not; nor is what lies between columns of froxels or sheets.
+                const double one_medium = GetParam() == Technique::froxel       ? 0.007
+                                          : GetParam() == Technique::billboards ? 0.015
+                                                                                : 1e-3;
+                EXPECT_LE(relative(frame.scattering.at(0, 8 - y)[0], expected), homogeneous > 0 ? 0.02 : one_medium)
                     << "falloff " << falloff << " pixel " << y << ' ' << frame.scattering.at(0, 8 - y)[0] << " for "
                     << expected;
                 const double transmittance = std::exp(-depth_to(length));
@@ -209,7 +229,7 @@ TEST_P(VolumetricsClosedForm, FogGoesOnBehindTheMarch) {
     const Frame frame = host.render(settings);
     const double saturated = 1000 * 0.5 / (4 * pi);
     EXPECT_LE(relative(frame.scattering.at(0, 0)[0], saturated * -std::expm1(-3.0)), 1e-3);
-    EXPECT_LE(relative(frame.transmittance.at(0, 0)[0], std::exp(-3.0)), 1e-3);
+    EXPECT_LE(relative(frame.transmittance.at(0, 0)[0], std::exp(-3.0)), tolerance());
     EXPECT_LE(relative(frame.scattering.at(1, 0)[0], saturated), 1e-3);
     EXPECT_EQ(frame.transmittance.at(1, 0)[0], 0);
 }
@@ -222,7 +242,7 @@ TEST_P(VolumetricsClosedForm, HeightFogEndsTowardsTheSky) {
     Settings settings = plain_settings(8);
     settings.max_distance = settings.froxel_far = 20;
     const Frame frame = host.render(settings);
-    EXPECT_LE(relative(frame.transmittance.at(0, 0)[0], std::exp(-0.02 * 10 / host.ray(0, 2).y)), 1e-3);
+    EXPECT_LE(relative(frame.transmittance.at(0, 0)[0], std::exp(-0.02 * 10 / host.ray(0, 2).y)), tolerance());
     EXPECT_EQ(frame.transmittance.at(0, 1)[0], 0);
     EXPECT_EQ(frame.transmittance.at(0, 2)[0], 0);
 }
@@ -296,10 +316,14 @@ TEST_P(VolumetricsClosedForm, ExtremeParametersStayFiniteAndInRange) {
                                     .falloff = 0.01F}};
                     for (const auto lamps :
                          {volumetrics::LampIntegration::center, volumetrics::LampIntegration::segment}) {
+                        if (lamps == volumetrics::LampIntegration::center && GetParam() != Technique::ray_march &&
+                            GetParam() != Technique::froxel)
+                            continue;  // is the same
                         Settings settings = plain_settings(1);
                         settings.lamp_integration = lamps;
                         settings.filter = volumetrics::Filter::gaussian15;
                         settings.froxels_x = settings.froxels_y = settings.froxels_z = 8;
+                        settings.reference_steps = 32;
                         const Frame frame = host.render(settings);
                         for (const float v : frame.scattering.pixels)
                             ASSERT_TRUE(std::isfinite(v) && v >= 0) << v << " at sigma " << sigma;
