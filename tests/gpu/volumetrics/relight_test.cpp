@@ -41,7 +41,7 @@ class VolumetricsRelight : public GlTest {
     /// The same media and lights by the technique reference, attenuated as `like` says.
     Frame truth(const Settings& like = {}) {
         Settings settings = like;
-        settings.technique = volumetrics::Technique::reference;
+        settings.technique = "reference";
         return host.render(settings);
     }
     /// Largest difference of two pictures, relative to the value (and to `least`).
