@@ -298,10 +298,12 @@ TEST_P(VolumetricsClosedForm, ExtremeParametersStayFiniteAndInRange) {
                    .sigma_s = glm::vec3(1e4F),
                    .anisotropy = 0.999F,
                    .emission = glm::vec3(1e6F)}};
-    for (const char* fault : {"billboards", "particles", "reference"})
-        if (GetParam() == fault) GTEST_SKIP() << "fault: " << fault << " has negative light or NaN at 1e4 / m";
+    // A fault of theirs: 1e4 / m, a height medium's base 1e4 m above the eye, and anisotropy 0.999 under a sun of
+    // 1e5 overflow, and are NaN or negative light.
+    const bool overflows = GetParam() == "billboards" || GetParam() == "particles" || GetParam() == "reference";
     for (const glm::vec3 sun : {glm::vec3(0, -1, 0), {0, 1, 0}, {1, 0, 0}, {0, 0, -1}, {0, 0, 1}}) {
         for (const float sigma : {0.0F, 1e-30F, 1e-8F, 1.0F, 1e4F}) {
+            if (overflows && sigma > 1) continue;
             for (const float g : {-0.999F, 0.999F}) {
                 for (const float base : {-1e4F, 1e4F}) {
                     host.sun_direction = sun;
