@@ -40,6 +40,7 @@ class VolumetricsLocalMedia : public GlTest, public testing::WithParamInterface<
 INSTANTIATE_TEST_SUITE_P(Techniques, VolumetricsLocalMedia, testing::Values("ray_march", "froxel"),
                          [](const auto& info) { return info.param; });
 
+// A hard rim is as fine as a froxel, 0.2 m deep: a pixel's transmittance, 0.2 in the middle, is up to 0.027 off.
 TEST_P(VolumetricsLocalMedia, SphereHasTheOpticalDepthOfItsShape) {
     for (const auto distribution :
          {volumetrics::DepthDistribution::linear, volumetrics::DepthDistribution::exponential}) {
@@ -52,13 +53,17 @@ TEST_P(VolumetricsLocalMedia, SphereHasTheOpticalDepthOfItsShape) {
             Settings settings = fine_settings();
             settings.froxel_distribution = distribution;
             const Frame frame = host.render(settings);
+            double mean_error = 0;
             for (int y = 0; y < 16; ++y)
                 for (int x = 0; x < 16; ++x) {
                     const double length = sphere_length(x, 15 - y, softness);
-                    for (int c = 0; c < 3; ++c)
-                        EXPECT_NEAR(frame.transmittance.at(x, y)[c], std::exp(-(0.2 + 0.1 * c) * length),
-                                    softness > 0 ? 0.01 : 0.05);
+                    for (int c = 0; c < 3; ++c) {
+                        const double expected = std::exp(-(0.2 + 0.1 * c) * length);
+                        EXPECT_NEAR(frame.transmittance.at(x, y)[c], expected, softness > 0 ? 0.005 : 0.03);
+                        mean_error += (frame.transmittance.at(x, y)[c] - expected) / (16 * 16 * 3);
+                    }
                 }
+            EXPECT_NEAR(mean_error, 0, softness > 0 ? 3e-4 : 2e-3);
         }
     }
 }

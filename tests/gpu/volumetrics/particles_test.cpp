@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <tuple>
 #include <utility>
 
 #include "tests/gpu/support/gl_test.h"
@@ -128,13 +129,23 @@ TEST_F(VolumetricsParticles, LocalMediaTakeAwayWhatBeerLambertSays) {
 }
 
 TEST_F(VolumetricsParticles, LocalMediaUnderEqualLightGainAndLoseNothing) {
+    // What is scattered and what comes through are 1 together, wherever discs overlap. Their sum in half floats is
+    // up to 3% too bright in a pixel and 0.9% in the mean.
     host.ambient = glm::vec3(1);
-    for (const float sigma_s : {0.02F, 0.3F, 50.0F}) {
+    s.particle_local_count = 8192;
+    for (const auto& [sigma_s, worst, mean] :
+         {std::tuple(0.02F, 0.008, 0.001), {0.3F, 0.02, 0.005}, {50.0F, 0.035, 0.012}}) {
         box_in_view(sigma_s, 0);
         host.global = {{.sigma_s = glm::vec3(0.01F)}};
         const Frame frame = host.render(s);
-        for (int i = 0; i < 48 * 32; ++i)
-            ASSERT_NEAR(frame.scattering.pixels[4 * i] + frame.transmittance.pixels[3 * i], 1, 0.08) << sigma_s;
+        double sum = 0;
+        for (int i = 0; i < 48 * 32; ++i) {
+            const double energy = frame.scattering.pixels[4 * i] + frame.transmittance.pixels[3 * i];
+            ASSERT_NEAR(energy, 1, worst) << sigma_s;
+            sum += energy / (48 * 32);
+        }
+        EXPECT_NEAR(sum, 1, mean) << sigma_s;
+        EXPECT_LT(mean_and_deviation(frame.transmittance).x, std::exp(-sigma_s * 10));  // and the global medium
     }
 }
 
