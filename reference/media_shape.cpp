@@ -5,7 +5,6 @@
 #include <limits>
 #include <numeric>
 
-#include "engine/core/error.h"
 #include "reference/quadrature.h"
 
 namespace tyndall::reference {
@@ -54,7 +53,7 @@ MediumShape::MediumShape(const Medium& medium)
       anisotropy(medium.anisotropy),
       box_(medium.shape == Medium::Shape::box),
       center_(medium.center),
-      extent_(box_ ? 0.5 * dvec3(medium.size) : dvec3(medium.radii)),
+      extent_(medium.half_extent),
       bounding_radius_(box_ ? glm::length(extent_) : std::max({extent_.x, extent_.y, extent_.z})),
       world_to_shape_(glm::transpose(glm::mat3_cast(glm::normalize(glm::dquat(medium.rotation))))),
       softness_(medium.softness < thinnest_rim ? 0 : medium.softness),
@@ -62,9 +61,7 @@ MediumShape::MediumShape(const Medium& medium)
       profile_(medium.height_profile),
       noise_{medium.noise_scale, medium.noise_amount, static_cast<unsigned>(medium.noise_seed)},
       base_(medium.base),
-      falloff_(medium.falloff) {
-    if (medium.shape == Medium::Shape::grid) throw Error("reference: grid media are not supported by this version");
-}
+      falloff_(medium.falloff) {}
 
 // Of the surface below a point, m. Ellipsoid: along the gradient of k = |p / radii|, at most the smallest radius.
 double MediumShape::depth(dvec3 p) const {
