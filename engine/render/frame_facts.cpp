@@ -9,6 +9,12 @@ bool is_dark(glm::vec3 v) {
     return v.x <= 0 && v.y <= 0 && v.z <= 0;
 }
 
+bool contains(const Medium& medium, glm::vec3 point) {
+    const glm::vec3 p = glm::inverse(medium.rotation) * (point - medium.center) / medium.half_extent;
+    if (medium.shape == Medium::Shape::box) return glm::all(glm::lessThanEqual(glm::abs(p), glm::vec3(1)));
+    return glm::dot(p, p) <= 1;
+}
+
 void add_lights(FrameFacts& facts, const Scene& scene, const Frustum& frustum) {
     const auto sun = scene.sun();
     facts.has_sun = sun && !is_dark(scene.lights[*sun].intensity);

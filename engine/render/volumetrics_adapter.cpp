@@ -1,5 +1,9 @@
 #include "engine/render/volumetrics_adapter.h"
 
+#include <fmt/format.h>
+
+#include "engine/core/error.h"
+
 namespace tyndall {
 namespace {
 
@@ -14,8 +18,22 @@ volumetrics::GlobalMedium global_medium(const Medium& m) {
             .falloff = m.falloff};
 }
 
+volumetrics::Shape shape_of(const Medium& bounded) {
+    switch (bounded.shape) {
+        case Medium::Shape::sphere:
+        case Medium::Shape::ellipsoid:
+            return volumetrics::Shape::ellipsoid;
+        case Medium::Shape::box:
+            return volumetrics::Shape::box;
+        case Medium::Shape::global:
+        case Medium::Shape::height:
+            break;
+    }
+    throw Error(fmt::format("{} medium: a bounded one expected", name_of(bounded.shape)));
+}
+
 volumetrics::LocalMedium local_medium(const Medium& m) {
-    return {.shape = m.shape == Medium::Shape::box ? volumetrics::Shape::box : volumetrics::Shape::ellipsoid,
+    return {.shape = shape_of(m),
             .center = m.center,
             .half_extent = m.half_extent,
             .rotation = m.rotation,

@@ -186,12 +186,6 @@ Aabb world_bounds(const Medium& bounded) {
     return transformed({-bounded.half_extent, bounded.half_extent}, to_world);
 }
 
-bool contains(const Medium& bounded, glm::vec3 point) {
-    const glm::vec3 p = glm::inverse(bounded.rotation) * (point - bounded.center) / bounded.half_extent;
-    if (bounded.shape == Medium::Shape::box) return glm::all(glm::lessThanEqual(glm::abs(p), glm::vec3(1)));
-    return glm::dot(p, p) <= 1;
-}
-
 std::vector<Medium> parse_media(const Json& json, const std::string& where) {
     const Field root{json, where};
     if (json.is_object()) {

@@ -37,8 +37,6 @@ struct Medium {
 [[nodiscard]] bool is_bounded(const Medium& medium);
 /// Of a bounded medium, and not too small: those of the box round it.
 [[nodiscard]] Aabb world_bounds(const Medium& bounded);
-/// Rim included.
-[[nodiscard]] bool contains(const Medium& bounded, glm::vec3 point);
 
 /// Parses {"media": [...]} or the bare list. `where` starts each message: path and index ("fog.json:
 /// media[2].radius: …"). Unknown keys, wrong types, non-finite numbers, coefficients outside 0 to 1e6 1/m, |g| >=
