@@ -1,10 +1,13 @@
 #include "reference/media_shape.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
 
+#include "engine/core/error.h"
 #include "reference/quadrature.h"
 
 namespace tyndall::reference {
@@ -16,6 +19,21 @@ constexpr double thinnest_rim = 1e-6;  ///< m; what is thinner is a step
 
 double smallest(dvec3 v) {
     return std::min({v.x, v.y, v.z});
+}
+
+/// Else an ellipsoid.
+bool is_box(Medium::Shape shape) {
+    switch (shape) {
+        case Medium::Shape::box:
+            return true;
+        case Medium::Shape::sphere:
+        case Medium::Shape::ellipsoid:
+            return false;
+        case Medium::Shape::global:
+        case Medium::Shape::height:
+            break;
+    }
+    throw Error(fmt::format("reference: {} medium, a bounded one expected", name_of(shape)));
 }
 
 }  // namespace
@@ -51,7 +69,7 @@ MediumShape::MediumShape(const Medium& medium)
       sigma_t(dvec3(medium.sigma_s) + dvec3(medium.sigma_a)),
       emission(medium.emission),
       anisotropy(medium.anisotropy),
-      box_(medium.shape == Medium::Shape::box),
+      box_(is_box(medium.shape)),
       center_(medium.center),
       extent_(medium.half_extent),
       bounding_radius_(box_ ? glm::length(extent_) : std::max({extent_.x, extent_.y, extent_.z})),
