@@ -124,6 +124,20 @@ Found find_or_throw(const std::vector<SettingsSet::Group>& groups, std::string_v
 
 }  // namespace
 
+void SettingsTable::add_choice(std::string_view key, std::string name) {
+    const auto row = std::ranges::find(settings_, key, &Setting::key);
+    TYNDALL_CHECK(row != settings_.end());
+    row->choices.push_back(std::move(name));
+    row->max = static_cast<double>(row->choices.size()) - 1;
+}
+
+double SettingsTable::index_of(const std::string& name, const std::vector<std::string>& names) {
+    const auto found = std::ranges::find(names, name);
+    if (found == names.end())
+        throw Error(fmt::format("setting value '{}': expected one of {}", name, fmt::join(names, ", ")));
+    return static_cast<double>(found - names.begin());
+}
+
 void SettingsSet::add(const SettingsTable& table, void* object) {
     const SettingsSet::Group added{&table, object};
     for (const Setting& s : table.settings()) {

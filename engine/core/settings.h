@@ -72,14 +72,33 @@ class SettingsTable {
         settings_.back().choices = std::move(names);
         return *this;
     }
+    /// One of `names`, held by name; the list may grow (add_choice).
+    template <class S>
+    SettingsTable& name(std::string S::*m, Text text, const std::vector<std::string>& (*names)(),
+                        SettingEffect effect) {
+        add<S>(std::move(text), SettingType::choice, 0, static_cast<double>(names().size()) - 1,
+               SettingScale::linear, effect);
+        Setting& row = settings_.back();
+        row.choices = names();
+        row.get = [m, names](const void* object) { return index_of(static_cast<const S*>(object)->*m, names()); };
+        row.set = [m, names](void* object, double v) {
+            static_cast<S*>(object)->*m = names().at(static_cast<std::size_t>(v));
+        };
+        const S defaults{};
+        row.default_value = row.get(&defaults);
+        return *this;
+    }
+    /// Another value of a choice that is held by name.
+    void add_choice(std::string_view key, std::string name);
 
     [[nodiscard]] const std::string& title() const { return title_; }
     [[nodiscard]] const std::vector<Setting>& settings() const { return settings_; }
 
   private:
-    template <class S, class T>
-    SettingsTable& add(T S::*m, Text text, SettingType type, double min, double max, SettingScale scale,
-                       SettingEffect effect) {
+    /// Throws Error for a name that is not in the list.
+    [[nodiscard]] static double index_of(const std::string& name, const std::vector<std::string>& names);
+    template <class S>
+    void add(Text text, SettingType type, double min, double max, SettingScale scale, SettingEffect effect) {
         Setting s;
         s.key = std::move(text.key);
         s.label = std::move(text.label);
@@ -90,10 +109,16 @@ class SettingsTable {
         s.max = max;
         s.scale = scale;
         s.effect = effect;
+        settings_.push_back(std::move(s));
+    }
+    template <class S, class T>
+    SettingsTable& add(T S::*m, Text text, SettingType type, double min, double max, SettingScale scale,
+                       SettingEffect effect) {
+        add<S>(std::move(text), type, min, max, scale, effect);
+        Setting& s = settings_.back();
         s.default_value = static_cast<double>(S{}.*m);
         s.get = [m](const void* object) { return static_cast<double>(static_cast<const S*>(object)->*m); };
         s.set = [m](void* object, double v) { static_cast<S*>(object)->*m = static_cast<T>(v); };
-        settings_.push_back(std::move(s));
         return *this;
     }
 

@@ -73,7 +73,7 @@ TEST_F(HalfFloat, NoTargetOverflowsAndTheLimitIsReached) {
 
 TEST_F(HalfFloat, WithoutAMediumSurfacesAndSkyStayFiniteToo) {
     FrameOptions options;
-    options.volumetrics.technique = volumetrics::Technique::off;
+    options.volumetrics.technique = "off";
     draw(options);
     expect_finite(gl::read_texture(renderer_.color()), "color");
 }

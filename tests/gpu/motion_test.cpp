@@ -187,9 +187,9 @@ TEST_F(Motion, IsThereOnlyWhereSomethingMovesAndItIsRead) {
         EXPECT_FALSE(moved_there());
     }
     options_.volumetrics.temporal = Temporal::ema;
-    options_.volumetrics.technique = volumetrics::Technique::analytic_fog;
+    options_.volumetrics.technique = "analytic_fog";
     EXPECT_FALSE(moved_there()) << "nothing is sampled";
-    options_.volumetrics.technique = volumetrics::Technique::ray_march;
+    options_.volumetrics.technique = "ray_march";
     EXPECT_TRUE(moved_there());
     builder_.scene.media.clear();
     EXPECT_FALSE(moved_there()) << "no medium";

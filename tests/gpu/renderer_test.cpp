@@ -124,7 +124,7 @@ TEST_F(RendererTest, NoMediumIsBitIdenticalToVolumetricsOff) {
     const Names with = live();
     const Image color = renderer_.read_layer(), shown = renderer_.read_display();
     EXPECT_EQ(renderer_.volumetrics_bytes(), 0u);
-    options_.volumetrics.technique = volumetrics::Technique::off;
+    options_.volumetrics.technique = "off";
     medium(Medium::Shape::global);
     draw();
     EXPECT_EQ(live(), with);
