@@ -356,7 +356,7 @@ TEST_F(VolumetricsLightVolume, DenseMediumUnderSunAndLampAsInTheReference) {
                 error += std::pow(double(image.at(x, y)[0]) - expected.at(x, y)[0], 2);
                 sum += expected.at(x, y)[0];
             }
-        EXPECT_LT(std::sqrt(error / 576) / (sum / 576), 0.04) << static_cast<int>(technique);
+        EXPECT_LT(std::sqrt(error / 576) / (sum / 576), 0.04) << technique;
     }
 }
 

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "engine/core/error.h"
+#include "volumetrics/technique.h"
 
 namespace tyndall::volumetrics {
 namespace {

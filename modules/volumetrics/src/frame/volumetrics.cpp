@@ -1,7 +1,6 @@
 #include "volumetrics/volumetrics.h"
 
 #include <algorithm>
-#include <set>
 #include <string>
 
 #include "engine/core/check.h"
@@ -16,15 +15,17 @@
 namespace tyndall::volumetrics {
 namespace {
 
-/// A frame's list says of every pass that some technique has why it is not there.
-void skip_rest(PassList& passes, const std::string& reason) {
-    std::set<std::string, std::less<>> there;
-    for (const PassList::PassInfo& pass : passes.passes()) there.insert(pass.name);
-    const auto skip = [&](const std::string& name) {
-        if (there.insert(name).second) passes.skip(name, reason);
-    };
-    for (const std::string& name : technique_names()) std::ranges::for_each(technique(name).passes, skip);
-    std::ranges::for_each(reconstruction_passes(), skip);
+/// A frame's list says once of every pass why it is not there.
+void skip_missing(PassList& passes, const std::vector<std::string>& names, const std::string& reason) {
+    for (const std::string& name : names)
+        if (std::ranges::find(passes.passes(), name, &PassList::PassInfo::name) == passes.passes().end())
+            passes.skip(name, reason);
+}
+
+void skip_others(PassList& passes, const TechniqueDesc& chosen) {
+    const std::string reason = "technique is " + chosen.name;
+    for (const std::string& name : technique_names()) skip_missing(passes, technique(name).passes, reason);
+    skip_missing(passes, reconstruction_passes(), reason);
 }
 
 }  // namespace
@@ -44,14 +45,14 @@ struct Volumetrics::Impl {
         Frame frame{passes, shaders, inputs, settings, media, resources, kept, inputs.size, inputs.depth};
         Outputs outputs;
         if (desc.traits.needs_global_medium && !media.has_global) {
-            for (const std::string& pass : desc.passes) passes.skip(pass, "no global medium");
+            skip_missing(passes, desc.passes, "no global medium");
             resources.temporal.release();
         } else if (desc.add) {
             add_depth_downsample(frame);
             outputs = reconstruct(frame, desc.add(frame));
         }
         if (inputs.transparents && !outputs.fog) outputs.fog = add_froxel_fog(frame, nullptr);
-        skip_rest(passes, "technique is " + desc.name);
+        skip_others(passes, desc);
         return outputs;
     }
 };
@@ -89,7 +90,9 @@ Outputs Volumetrics::add_passes(PassList& passes, const Inputs& inputs, const Se
     if (impl_->media.empty() || !averages_frames(settings)) impl_->resources.temporal.release();
     if (!desc.add || impl_->media.empty()) {
         const std::string reason = desc.add ? "no medium in view" : "technique is " + desc.name;
-        skip_rest(passes, reason);
+        skip_missing(passes, desc.passes, reason);
+        if (!desc.add) skip_others(passes, desc);
+        skip_missing(passes, reconstruction_passes(), reason);
         passes.skip("volumetrics/composite", reason);
         return {};
     }
