@@ -9,25 +9,8 @@ bool is_dark(glm::vec3 v) {
     return v.x <= 0 && v.y <= 0 && v.z <= 0;
 }
 
-bool is_bounded(const Medium& medium) {
-    return medium.shape != Medium::Shape::global && medium.shape != Medium::Shape::height;
-}
-
-/// Half extents in the shape's frame.
-glm::vec3 half_extents(const Medium& medium) {
-    return medium.shape == Medium::Shape::box ? medium.size * 0.5f : medium.radii;
-}
-
-/// Of the shape's box in its own frame, turned and moved into the world.
-Aabb world_bounds(const Medium& medium) {
-    glm::mat4 to_world = glm::mat4_cast(medium.rotation);
-    to_world[3] = glm::vec4(medium.center, 1);
-    const glm::vec3 half = half_extents(medium);
-    return transformed({-half, half}, to_world);
-}
-
 bool contains(const Medium& medium, glm::vec3 point) {
-    const glm::vec3 p = glm::inverse(medium.rotation) * (point - medium.center) / half_extents(medium);
+    const glm::vec3 p = glm::inverse(medium.rotation) * (point - medium.center) / medium.half_extent;
     if (medium.shape == Medium::Shape::box) return glm::all(glm::lessThanEqual(glm::abs(p), glm::vec3(1)));
     return glm::dot(p, p) <= 1;
 }

@@ -1,5 +1,9 @@
 #include "engine/render/volumetrics_adapter.h"
 
+#include <fmt/format.h>
+
+#include "engine/core/error.h"
+
 namespace tyndall {
 namespace {
 
@@ -14,11 +18,24 @@ volumetrics::GlobalMedium global_medium(const Medium& m) {
             .falloff = m.falloff};
 }
 
+volumetrics::Shape shape_of(const Medium& bounded) {
+    switch (bounded.shape) {
+        case Medium::Shape::sphere:
+        case Medium::Shape::ellipsoid:
+            return volumetrics::Shape::ellipsoid;
+        case Medium::Shape::box:
+            return volumetrics::Shape::box;
+        case Medium::Shape::global:
+        case Medium::Shape::height:
+            break;
+    }
+    throw Error(fmt::format("{} medium: a bounded one expected", name_of(bounded.shape)));
+}
+
 volumetrics::LocalMedium local_medium(const Medium& m) {
-    const bool box = m.shape == Medium::Shape::box;
-    return {.box = box,
+    return {.shape = shape_of(m),
             .center = m.center,
-            .half_extent = box ? m.size * 0.5f : m.radii,
+            .half_extent = m.half_extent,
             .rotation = m.rotation,
             .softness = m.softness,
             .sigma_s = m.sigma_s,
@@ -43,9 +60,10 @@ volumetrics::Inputs volumetrics_inputs(const FrameContext& frame) {
     inputs.znear = frame.view.znear;
     inputs.size = frame.size;
     for (const Medium& medium : frame.scene.media) {
-        const bool global = medium.shape == Medium::Shape::global || medium.shape == Medium::Shape::height;
-        if (global && frame.facts.has_global_medium) inputs.global.push_back(global_medium(medium));
-        if (!global) inputs.local.push_back(local_medium(medium));
+        if (is_bounded(medium))
+            inputs.local.push_back(local_medium(medium));
+        else if (frame.facts.has_global_medium)
+            inputs.global.push_back(global_medium(medium));
     }
     inputs.has_sun = frame.facts.has_sun;
     inputs.sun_direction = glm::vec3(frame.frame.sun_direction);

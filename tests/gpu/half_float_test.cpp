@@ -30,7 +30,7 @@ class HalfFloat : public GlTest {
             medium.sigma_s = glm::vec3(0.01f);
             medium.emission = glm::vec3(most);
             medium.center = {0, 1, 0};
-            medium.radii = glm::vec3(3);
+            medium.half_extent = glm::vec3(3);
             builder_.scene.media.push_back(medium);
         }
         renderer_.prepare(builder_.finish());

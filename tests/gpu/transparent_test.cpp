@@ -73,7 +73,7 @@ class Transparent : public GlTest {
         m.sigma_a = 0.2f * sigma_s;
         m.anisotropy = 0.3f;
         m.center = center;
-        m.radii = glm::vec3(3);
+        m.half_extent = glm::vec3(3);
         m.height_profile = shape == Medium::Shape::height;
         m.falloff = 10;
         builder_.scene.media.push_back(m);

@@ -21,15 +21,13 @@ std::string text(const StressFrame::Lamp& lamp) {
 }
 
 std::string text(const Medium& medium) {
-    static constexpr const char* shapes[] = {"global", "height", "sphere", "ellipsoid", "box", "grid"};
     std::string line =
-        fmt::format("  {} scattering {} absorption {} g {:.7g} emission {}", shapes[static_cast<int>(medium.shape)],
+        fmt::format("  {} scattering {} absorption {} g {:.7g} emission {}", name_of(medium.shape),
                     text(medium.sigma_s), text(medium.sigma_a), medium.anisotropy, text(medium.emission));
     if (medium.height_profile) line += fmt::format(" base {:.7g} falloff {:.7g}", medium.base, medium.falloff);
-    if (medium.shape != Medium::Shape::global && medium.shape != Medium::Shape::height)
-        line += fmt::format(" at {} radii {} size {} softness {:.7g} noise {:.7g} of {:.7g} m", text(medium.center),
-                            text(medium.radii), text(medium.size), medium.softness, medium.noise_amount,
-                            medium.noise_scale);
+    if (is_bounded(medium))
+        line += fmt::format(" at {} half extent {} softness {:.7g} noise {:.7g} of {:.7g} m", text(medium.center),
+                            text(medium.half_extent), medium.softness, medium.noise_amount, medium.noise_scale);
     return line + "\n";
 }
 

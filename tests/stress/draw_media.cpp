@@ -55,14 +55,14 @@ Medium draw_local(bool first, const StressFrame& frame, const Structure& structu
     medium.shape = random.pick({Medium::Shape::sphere, Medium::Shape::ellipsoid, Medium::Shape::box});
     draw_coefficients(medium, first, structure.local_emission, structure, random);
     medium.center = random.chance(0.2) ? frame.view.eye : origin + random.box(20);
-    medium.radii = glm::vec3(draw_length(random));
-    medium.size = glm::vec3{draw_length(random), draw_length(random), draw_length(random)};
-    if (medium.shape == Medium::Shape::ellipsoid) medium.radii = medium.size;
+    const float radius = draw_length(random);
+    const glm::vec3 extent{draw_length(random), draw_length(random), draw_length(random)};
+    medium.half_extent = medium.shape == Medium::Shape::sphere ? glm::vec3(radius) : extent;
     if (first) {  // in view
         medium.center = before_camera(frame.view, logarithmic(random, 1, 10));
-        medium.radii = glm::abs(medium.radii) + 0.1f;
-        medium.size = glm::abs(medium.size) + 0.1f;
+        medium.half_extent = glm::abs(medium.half_extent) + 0.1f;
     }
+    if (medium.shape == Medium::Shape::box) medium.half_extent *= 0.5f;
     medium.rotation =
         glm::angleAxis(static_cast<float>(random.linear(0, 2 * std::numbers::pi)), random.direction());
     medium.softness = random.chance(0.4) ? 0 : usual_or(random, 0.1, 5, 1e-4, 1e4);

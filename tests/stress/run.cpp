@@ -12,9 +12,7 @@ namespace {
 
 /// Where along a ray the media are sampled depends on where it ends: only closed forms are monotonic for certain.
 bool has_monotonic_transmittance(const StressFrame& frame) {
-    return std::ranges::all_of(frame.media, [](const Medium& medium) {
-        return medium.shape == Medium::Shape::global || medium.shape == Medium::Shape::height;
-    });
+    return std::ranges::none_of(frame.media, is_bounded);
 }
 
 bool has_surface(const Image& depth) {

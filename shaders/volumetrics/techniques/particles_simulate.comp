@@ -53,24 +53,12 @@ vec3 lattice_particle(uint index) {
     return lower_corner + (vec3(cell) + vec3(unit_float(place.x), unit_float(place.y), unit_float(place.z))) * spacing;
 }
 
-// The R3 sequence in the shape's cube, or with that volume in its ball; it drifts along x and wraps
-// round, or turns about y.
+// The R3 sequence in the shape.
 vec3 shape_particle(LocalMedium local, uint index) {
     uvec3 r = (index + 1u + placement * count) * R3;
     vec3 u = vec3(unit_float(r.x), unit_float(r.y), unit_float(r.z));
-    vec3 extent = local.extent_softness.xyz;
-    vec3 p;
-    if (int(local.sigma_a_shape.w) == SHAPE_BOX) {
-        u.x = fract(u.x + drift / (2.0 * extent.x));
-        p = 2.0 * u - 1.0;
-    } else {
-        float angle = 2.0 * PI * u.z + drift / max(extent.x, extent.z);
-        float height = 1.0 - 2.0 * u.y;
-        float ring = sqrt(max(1.0 - height * height, 0.0));
-        p = pow(u.x, 1.0 / 3.0) * vec3(ring * cos(angle), height, ring * sin(angle));
-    }
-    vec3 eye = (local.world_to_shape * vec4(volumetrics.eye.xyz, 1.0)).xyz;
-    return transpose(mat3(local.world_to_shape)) * (p * extent - eye);
+    vec3 eye = to_shape(local, volumetrics.eye.xyz);
+    return transpose(mat3(local.world_to_shape)) * (shape_place(local, u, drift) - eye);
 }
 
 // Some of the sphere may be seen: not outside of one of the four sides of the view, nor behind the eye.

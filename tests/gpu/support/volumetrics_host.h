@@ -20,6 +20,7 @@ using volumetrics::GlobalMedium;
 using volumetrics::Inputs;
 using volumetrics::LocalMedium;
 using volumetrics::Settings;
+using volumetrics::Shape;
 
 /// A view depth that stands for the sky.
 constexpr float sky = -1;

@@ -156,7 +156,8 @@ TEST_P(VolumetricsAir, LocalMediumInAirAndHaze) {
     const glm::dvec3 air(0.01F, 0.02F, 0.06F);
     host.global = {{.sigma_s = glm::vec3(air), .rayleigh = true, .height = true, .falloff = 1e9F},
                    {.sigma_s = glm::vec3(0.01F), .anisotropy = 0.6F}};
-    host.local = {{.box = true, .half_extent = glm::vec3(50), .sigma_s = glm::vec3(0.03125F), .anisotropy = -0.4F}};
+    host.local = {
+        {.shape = Shape::box, .half_extent = glm::vec3(50), .sigma_s = glm::vec3(0.03125F), .anisotropy = -0.4F}};
     Settings settings = exact_settings();
     settings.light_transmittance = false;
     const double c = host.sun_direction.z, particles = 0.01 + 0.03125, g = (0.01 * 0.6 - 0.03125 * 0.4) / particles;

@@ -45,7 +45,7 @@ double chord(const LocalMedium& medium, glm::dvec3 a, glm::dvec3 b) {
     const glm::dvec3 from = inverse * (a - glm::dvec3(medium.center)), path = inverse * (b - a);
     const glm::dvec3 half(medium.half_extent);
     double enter = 0, leave = 1;
-    if (medium.box) {
+    if (medium.shape == Shape::box) {
         for (int axis = 0; axis < 3; ++axis) {
             if (std::abs(path[axis]) < 1e-12) {
                 if (std::abs(from[axis]) > half[axis]) return 0;
@@ -85,7 +85,7 @@ class VolumetricsLightVolume : public GlTest {
     TransientPool pool;
     Settings settings;
     const LocalMedium ball{.center = {1, 2, -6}, .half_extent = glm::vec3(2), .sigma_a = glm::vec3(0.4F)};
-    const LocalMedium box{.box = true,
+    const LocalMedium box{.shape = Shape::box,
                           .center = {1, 2, -6},
                           .half_extent = {1.5F, 1, 2},
                           .rotation = glm::angleAxis(0.7F, glm::normalize(glm::vec3(1, 2, 3))),
@@ -219,7 +219,7 @@ TEST_F(VolumetricsLightVolume, MediumOutOfViewDimsWhatIsInView) {
     host.global = {{.sigma_s = glm::vec3(0.01F)}};
     host.sun_direction = {0, 0, -1};
     const LocalMedium wall{
-        .box = true, .center = {0, 0, 60}, .half_extent = {40, 40, 1}, .sigma_a = glm::vec3(0.5F)};
+        .shape = Shape::box, .center = {0, 0, 60}, .half_extent = {40, 40, 1}, .sigma_a = glm::vec3(0.5F)};
     for (const char* technique : {"ray_march", "froxel"}) {
         Settings s = small_settings(16);
         s.technique = technique;

@@ -47,7 +47,7 @@ class VolumetricsParticles : public GlTest {
     /// A box that fills the view, with its front at 10 m and its back at 20 m.
     void box_in_view(float sigma_s, float sigma_a) {
         host.vertical_fov = 0.4F;
-        host.local = {{.box = true,
+        host.local = {{.shape = Shape::box,
                        .center = {0, 0, -15},
                        .half_extent = {10, 8, 5},
                        .sigma_s = glm::vec3(sigma_s),

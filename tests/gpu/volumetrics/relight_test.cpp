@@ -153,7 +153,7 @@ TEST_F(VolumetricsRelight, LocalMediaAreSampledSliceBySlice) {
     // A box of fog in fog, all lit: the filter leaves less error than of the light.
     light_everything();
     host.local.resize(1);
-    host.local[0].box = true;
+    host.local[0].shape = Shape::box;
     host.local[0].center = {1, 0, -8};
     host.local[0].half_extent = {2, 1, 2};
     host.local[0].sigma_s = glm::vec3(0.3F);
@@ -175,7 +175,7 @@ class VolumetricsRuns : public VolumetricsRelight {
         host.view_depth = [](int, int) { return 20.0F; };
     }
     static LocalMedium box(glm::vec3 center, glm::vec3 half_extent, float sigma) {
-        return {.box = true,
+        return {.shape = Shape::box,
                 .center = center,
                 .half_extent = half_extent,
                 .sigma_s = glm::vec3(0.8F * sigma),

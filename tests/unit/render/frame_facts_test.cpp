@@ -93,8 +93,8 @@ TEST(FrameFacts, GlobalMediaAreEverywhereUnlessTheyDoNothing) {
 TEST(FrameFacts, BoundedMediaCountInViewAndKnowWhetherTheCameraIsInside) {
     struct Case {
         Medium::Shape shape;
-        glm::vec3 center, size;  // half extents
-        float turn;              // about y, rad
+        glm::vec3 center, half_extent;
+        float turn;  // about y, rad
         bool in_view, inside;
     };
     constexpr float eighth = 0.7853982f;
@@ -112,8 +112,7 @@ TEST(FrameFacts, BoundedMediaCountInViewAndKnowWhetherTheCameraIsInside) {
         scene.media = {fog(c.shape, 0.5f)};
         Medium& medium = scene.media[0];
         medium.center = c.center;
-        medium.radii = c.size;
-        medium.size = 2.0f * c.size;
+        medium.half_extent = c.half_extent;
         medium.rotation = glm::angleAxis(c.turn, glm::vec3(0, 1, 0));
         const FrameFacts facts = compute_facts(scene, camera());
         EXPECT_EQ(facts.has_local_media, c.in_view) << c.center.x << ' ' << c.center.z;

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/gtc/matrix_transform.hpp>
 
 #include "engine/core/error.h"
 #include "media/froxel_tiles.h"
+#include "media/shape.h"
 #include "reconstruction/noise.h"
 #include "reconstruction/reconstruction.h"
 #include "shaders/lib/glm_subset.h"
@@ -26,10 +26,6 @@ bool is_zero(glm::vec3 v) {
 template <class M>
 bool does_nothing(const M& medium) {
     return is_zero(medium.sigma_s) && is_zero(medium.sigma_a) && is_zero(medium.emission);
-}
-/// No extent, or none that makes sense: it holds no point, and dividing by it would give NaN.
-bool is_empty(const LocalMedium& medium) {
-    return !glm::all(glm::greaterThan(medium.half_extent, glm::vec3(0)));
 }
 /// Beyond the rounding of sigma_s + sigma_a.
 bool is_coloured(glm::vec3 sigma_t) {
@@ -61,15 +57,14 @@ shared::HeightMedium pack_height(const GlobalMedium& medium) {
 }
 
 shared::LocalMedium pack_local(const LocalMedium& medium) {
-    const glm::mat4 rotation = glm::mat4_cast(glm::conjugate(medium.rotation));
     const bool noise = medium.noise_scale > 0 && medium.noise_amount > 0;
-    return {.world_to_shape = glm::translate(rotation, -medium.center),
-            .extent_softness = {medium.half_extent, medium.softness},
-            .sigma_s_g = {medium.sigma_s, medium.anisotropy},
-            .sigma_a_shape = {medium.sigma_a, medium.box ? SHAPE_BOX : SHAPE_ELLIPSOID},
-            .emission_noise = {medium.emission, noise ? medium.noise_amount : 0.0F},
-            .noise_height = {medium.noise_scale, static_cast<float>(medium.noise_seed), medium.base,
-                             medium.height ? medium.falloff : 0.0F}};
+    shared::LocalMedium packed = pack_shape(medium);
+    packed.sigma_s_g = {medium.sigma_s, medium.anisotropy};
+    packed.sigma_a_shape = {medium.sigma_a, packed.sigma_a_shape.w};
+    packed.emission_noise = {medium.emission, noise ? medium.noise_amount : 0.0F};
+    packed.noise_height = {medium.noise_scale, static_cast<float>(medium.noise_seed), medium.base,
+                           medium.height ? medium.falloff : 0.0F};
+    return packed;
 }
 
 void add_global(const Inputs& inputs, FrameMedia& media) {

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "frame/resources.h"
+#include "media/shape.h"
 #include "reconstruction/reconstruction.h"
 #include "shaders/lib/glm_subset.h"
 #include "shaders/shared/bindings.h"
@@ -52,10 +53,7 @@ void add_sheets(const Settings& settings, std::vector<shared::Billboard>& sprite
 /// Nearest and farthest view depth [m] of a shape; the nearest is not behind the eye.
 glm::vec2 depths_of(const shared::LocalMedium& medium, const glm::mat4& view) {
     const glm::vec3 center = glm::vec3(glm::inverse(medium.world_to_shape)[3]);
-    const glm::vec3 forward = glm::mat3(medium.world_to_shape) * -glm::vec3(view[0][2], view[1][2], view[2][2]);
-    const glm::vec3 reach = forward * glm::vec3(medium.extent_softness);
-    const bool box = static_cast<int>(medium.sigma_a_shape.w) == SHAPE_BOX;
-    const float half = box ? glm::dot(glm::abs(reach), glm::vec3(1)) : glm::length(reach);
+    const float half = half_extent_along(medium, -glm::vec3(view[0][2], view[1][2], view[2][2]));
     const float middle = -(view * glm::vec4(center, 1)).z;
     return {std::max(middle - half, 0.0F), middle + half};
 }
