@@ -50,7 +50,7 @@ class AcceptanceView : public GlTest {
     glm::ivec2 size_{75, 50};
     float eye_x_ = 0;
     FrameOptions options_;
-    ShaderLibrary shaders_{data_root()};
+    ShaderLibrary& shaders_ = shared_shaders();
     Renderer renderer_{shaders_};
 };
 

@@ -105,6 +105,8 @@ class BadNumbers : public GlTest {
             options.layer = "scattering";
             options.more_layers = {"transmittance"};
             options.volumetrics.froxels_x = options.volumetrics.froxels_y = options.volumetrics.froxels_z = 17;
+            options.volumetrics.sun_volume_size = 16;
+            options.volumetrics.lamp_volume_size = 8;
             options.render.cascade_size = options.render.static_shadow_size = 256;
             options.render.atlas_size = 512;
             renderer_.render(scene, view, {17, 9}, options);
@@ -119,7 +121,7 @@ class BadNumbers : public GlTest {
 
   private:
     fs::path folder_;
-    ShaderLibrary shaders_{data_root()};
+    ShaderLibrary& shaders_ = shared_shaders();
     Renderer renderer_{shaders_};
 };
 

@@ -136,7 +136,7 @@ class Cluster : public GlTest {
     shared::FrameData frame_{};
     LightSet lights_;
     ClusterPass cluster_;
-    ShaderLibrary shaders_{data_root()};
+    ShaderLibrary& shaders_ = shared_shaders();
 };
 
 TEST_F(Cluster, EveryLampThatLightsAPointIsInItsListAndInOrder) {

@@ -44,7 +44,7 @@ class HalfFloat : public GlTest {
 
     test::SceneBuilder builder_;
     View view_ = look_at({0, 2, 6}, {0, 1.5f, 0}, 1.0f, 0.1f, 1.5f);
-    ShaderLibrary shaders_{data_root()};
+    ShaderLibrary& shaders_ = shared_shaders();
     Renderer renderer_{shaders_};
 };
 

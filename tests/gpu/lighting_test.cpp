@@ -52,7 +52,7 @@ class Lighting : public GlTest {
     test::SceneBuilder builder_;
     View view_ = look_at({0, 4, 1}, {0, 0, 0}, 1.0f, 0.1f, 1.0f);
     FrameOptions options_;
-    ShaderLibrary shaders_{data_root()};
+    ShaderLibrary& shaders_ = shared_shaders();
     Renderer renderer_{shaders_};
     static constexpr glm::dvec3 up{0, 1, 0};
 };

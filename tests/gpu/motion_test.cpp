@@ -89,7 +89,7 @@ class Motion : public GlTest {
     glm::ivec2 size_ = size;
     glm::dvec3 eye_{0, 0, 8};
     FrameOptions options_;
-    ShaderLibrary shaders_{data_root()};
+    ShaderLibrary& shaders_ = shared_shaders();
     Renderer renderer_{shaders_};
 };
 

@@ -52,7 +52,7 @@ class RendererTest : public GlTest {
     glm::ivec2 size_{96, 64};
     View view_ = look_at({0, 2, 8}, {0, 1, 0}, 1.0f, 0.1f, 1.5f);
     FrameOptions options_;
-    ShaderLibrary shaders_{data_root()};
+    ShaderLibrary& shaders_ = shared_shaders();
     Renderer renderer_{shaders_};
     bool prepared_ = false;
 };

@@ -17,15 +17,6 @@ namespace {
 
 class Transparent : public GlTest {
   protected:
-    /// One for all: most of the time is the compiler's.
-    static ShaderLibrary& shaders() {
-        if (!shaders_) shaders_ = std::make_unique<ShaderLibrary>(data_root());
-        return *shaders_;
-    }
-    static void TearDownTestSuite() {
-        context().make_current();
-        shaders_.reset();
-    }
     Transparent() {
         options_.volumetrics.froxels_x = 16;
         options_.volumetrics.froxels_y = 16;
@@ -105,8 +96,7 @@ class Transparent : public GlTest {
     glm::ivec2 size_{17, 17};  // the middle of a pixel is the axis
     View view_ = look_at({0, 0, 0}, {0, 0, -1}, 0.8f, 0.1f, 1);
     FrameOptions options_;
-    Renderer renderer_{shaders()};
-    static inline std::unique_ptr<ShaderLibrary> shaders_;
+    Renderer renderer_{shared_shaders()};
 };
 
 class TransparentFog : public Transparent {

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iostream>
 
 #include "engine/scene/scene.h"
 #include "sample_game/ui/settings_sections.h"
@@ -87,10 +86,7 @@ void choose(GameProcess& game, const std::string& technique, const std::string& 
 }
 
 TEST(Window, WalkLookAndTheDebugUi) {
-    if (const std::string reason = GameProcess::missing(); !reason.empty()) {
-        std::cout << "skipped: " << reason << std::endl;  // gtest_brief does not say it
-        GTEST_SKIP() << reason;
-    }
+    if (const std::string reason = GameProcess::missing(); !reason.empty()) GTEST_SKIP() << reason;
     GameProcess game({level(),
                       "--size",
                       "448x540",

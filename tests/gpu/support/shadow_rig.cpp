@@ -29,8 +29,7 @@ std::string shadow_shader(const std::string& defines, const std::string& main) {
            resolve_includes(data_root(), "shaders/engine/shadow_lookup.glsl") + main;
 }
 
-ShadowRig::ShadowRig(Scene scene_)
-    : scene(std::move(scene_)), shaders_(data_root()), gpu_(scene), sun(shaders_), atlas(shaders_) {
+ShadowRig::ShadowRig(Scene scene_) : scene(std::move(scene_)), gpu_(scene), sun(shaders_), atlas(shaders_) {
     settings.cascade_size = 512;
     settings.cascade_distance = 40;
     settings.static_shadow_size = 1024;

@@ -81,14 +81,11 @@ class StubHost {
     /// World-space ray through a pixel's centre, unit.
     [[nodiscard]] glm::vec3 ray(int x, int y) const;
     [[nodiscard]] Frame render(const Settings& settings);
-    [[nodiscard]] ShaderLibrary& shaders() { return shaders_; }
     [[nodiscard]] volumetrics::Volumetrics& volumetrics() { return volumetrics_; }
     [[nodiscard]] Inputs inputs(PassList& passes);
 
   private:
     void upload();
-    ShaderFolder folder_;
-    ShaderLibrary shaders_;
     volumetrics::Volumetrics volumetrics_;
     TransientPool pool_;
     gl::Texture depth_;
