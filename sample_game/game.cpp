@@ -161,7 +161,7 @@ class Game {
 
     void next_technique() {
         const std::vector<std::string>& names = volumetrics::technique_names();
-        const auto current = static_cast<std::size_t>(session_.options.volumetrics.technique);
+        const auto current = static_cast<std::size_t>(session_.volumetrics.settings.technique);
         const std::string& next = names[(current + 1) % names.size()];
         session_.settings.set("technique", next);
         say("technique: " + next);

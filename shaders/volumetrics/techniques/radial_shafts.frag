@@ -23,7 +23,7 @@ void main() {
     float visibility = texelFetch(visibility_texture, ivec2(gl_FragCoord.xy), 0).r;
     count_work(WORK_TEXTURE_FETCHES, 2u);
     float surface = ray_distance_from_view_depth(view_depth_from_buffer(depth, volumetrics.eye.w), ray.forward_cosine);
-    Fog fog = fog_over_ray(ray, surface, is_background(depth), ambient);
+    ClosedFormFog fog = fog_over_ray(ray, surface, is_background(depth), ambient);
     out_scattering = round_to_half(vec4(fog.glow + fog.sun * visibility, average(fog.transmittance)));
 #if CHROMATIC
     out_transmittance = round_to_half(vec4(fog.transmittance, average(fog.transmittance)));

@@ -47,6 +47,9 @@ class Volumetrics {
     /// Uploads this frame's uniforms and media; called before add_passes, and before the host's lighting pass runs.
     void prepare(const Inputs& inputs, const Settings& settings);
 
+    /// The view jumps: nothing of earlier frames may show in the next. What does not depend on the view stays.
+    void forget_history();
+
     /// Bytes held between frames (history, tables), without the pass list's transient textures.
     [[nodiscard]] std::size_t persistent_bytes() const;
 

@@ -275,6 +275,11 @@ void Volumetrics::bind_uniforms() const {
     impl_->resources.light_volumes.bind();
 }
 
+void Volumetrics::forget_history() {
+    impl_->froxel_history.release();
+    impl_->temporal_history.release();
+}
+
 std::size_t Volumetrics::persistent_bytes() const {
     const PassResources& r = impl_->resources;
     return r.uniforms.size() + r.local_media.size() + r.media_tiles.size() + r.noise.bytes() + r.sprites.size() +

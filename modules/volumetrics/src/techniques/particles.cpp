@@ -71,7 +71,7 @@ void dispatch(const gl::Program& shader, const ParticleBatch& batch) {
 
 BufferRef add_simulate(PassList& passes, PassResources& resources, const Inputs& inputs, const FrameMedia& media,
                        std::vector<ParticleBatch> batches) {
-    const std::size_t bytes = (batches.back().first + batches.back().count) * sizeof(shared::Particle);
+    const std::size_t bytes = (batches.back().first + batches.back().count) * sizeof(shared::ParticleSprite);
     if (resources.sprites.size() != bytes) resources.sprites = gl::Buffer(bytes, "volumetrics particles");
     BufferRef particles = passes.import_buffer("volumetrics/particles", resources.sprites.id());
     const gl::Program& shader =
