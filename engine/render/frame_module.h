@@ -10,8 +10,9 @@
 
 namespace tyndall {
 
-/// What a module adds to the frames of one renderer, which knows nothing else of it. The functions are called once
-/// a frame, in this order, while the pass list is built; what they return may refer to the frame until it has run.
+/// What a module adds to the frames of one renderer, which knows nothing else of it. While a frame's pass list is
+/// built these functions are called in the order they have here; what they add may refer to the frame until it has
+/// run.
 class FrameModule {
   public:
     FrameModule() = default;

@@ -11,6 +11,7 @@
 #include "engine/gl/framebuffer.h"
 #include "engine/gl/readback.h"
 #include "engine/render/frame_context.h"
+#include "engine/render/frame_module.h"
 #include "engine/render/layers.h"
 #include "engine/render/light_set.h"
 #include "engine/render/passes/cluster.h"

@@ -13,13 +13,14 @@
 #include "engine/gl/work_counters.h"
 #include "engine/graph/pass_list.h"
 #include "engine/render/frame_facts.h"
-#include "engine/render/frame_module.h"
 #include "engine/render/render_settings.h"
 #include "engine/scene/scene.h"
 #include "engine/scene/view.h"
 #include "engine/shader/shader_library.h"
 
 namespace tyndall {
+
+class FrameModule;
 
 /// What one frame is drawn with besides the scene and the view.
 struct FrameOptions {
