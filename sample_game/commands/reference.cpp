@@ -87,7 +87,7 @@ void run(const Options& o) {
     Scene scene = o.scene.load();
     animate(scene, o.view.time);
     const View view = o.view.view(scene, size);
-    if (volumetrics.technique == volumetrics::Technique::off) scene.media.clear();
+    if (volumetrics.technique == "off") scene.media.clear();
     const reference::Reference integrator(
         scene, {.light_transmittance = volumetrics.light_transmittance,
                 .phase = {.kind = static_cast<reference::ParticlePhase::Kind>(volumetrics.phase),

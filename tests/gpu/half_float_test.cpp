@@ -75,7 +75,7 @@ TEST_F(HalfFloat, NoTargetOverflowsAndTheLimitIsReached) {
 
 TEST_F(HalfFloat, WithoutAMediumSurfacesAndSkyStayFiniteToo) {
     FrameOptions options;
-    volumetrics_.settings.technique = volumetrics::Technique::off;
+    volumetrics_.settings.technique = "off";
     draw(options);
     expect_finite(gl::read_texture(renderer_.color()), "color");
 }

@@ -189,9 +189,9 @@ TEST_F(Motion, IsThereOnlyWhereSomethingMovesAndItIsRead) {
         EXPECT_FALSE(moved_there());
     }
     volumetrics_.settings.temporal = Temporal::ema;
-    volumetrics_.settings.technique = volumetrics::Technique::analytic_fog;
+    volumetrics_.settings.technique = "analytic_fog";
     EXPECT_FALSE(moved_there()) << "nothing is sampled";
-    volumetrics_.settings.technique = volumetrics::Technique::ray_march;
+    volumetrics_.settings.technique = "ray_march";
     EXPECT_TRUE(moved_there());
     builder_.scene.media.clear();
     EXPECT_FALSE(moved_there()) << "no medium";

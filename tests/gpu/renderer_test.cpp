@@ -126,7 +126,7 @@ TEST_F(RendererTest, NoMediumIsBitIdenticalToVolumetricsOff) {
     const Names with = live();
     const Image color = renderer_.read_layer(), shown = renderer_.read_display();
     EXPECT_EQ(volumetrics_.persistent_bytes(), 0u);
-    volumetrics_.settings.technique = volumetrics::Technique::off;
+    volumetrics_.settings.technique = "off";
     medium(Medium::Shape::global);
     draw();
     EXPECT_EQ(live(), with);

@@ -38,7 +38,7 @@ Structure draw_structure(Random& random) {
     draw_settings(render_settings_table(), &s.options.render, SettingEffect::permutation, random);
     draw_settings(volumetrics::settings_table(), &s.options.volumetrics, SettingEffect::permutation, random);
     // The march is what this is about; a technique that the table gets later is drawn now and then.
-    if (random.chance(s.comparable ? 1 : 0.7)) s.options.volumetrics.technique = volumetrics::Technique::ray_march;
+    if (random.chance(s.comparable ? 1 : 0.7)) s.options.volumetrics.technique = "ray_march";
     if (s.comparable) {
         s.options.render.shadows = false;
         s.options.volumetrics.filter = volumetrics::Filter::none;
@@ -74,7 +74,7 @@ glm::ivec2 draw_size(SizeKind kind, Random& random) {
 /// Lowers steps, then the size, until the frame is cheap.
 void limit_work(StressFrame& frame) {
     volumetrics::Settings& v = frame.options.volumetrics;
-    if (v.technique == volumetrics::Technique::reference) {
+    if (v.technique == "reference") {
         frame.size = glm::min(frame.size, glm::ivec2(9));
         v.reference_steps = std::min(v.reference_steps, 512);
         v.reference_light_steps = std::min(v.reference_light_steps, 4);

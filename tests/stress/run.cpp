@@ -44,7 +44,7 @@ Findings Run::check(int number) {
         if (frame.cut) worlds_[frame.world].renderer->invalidate_history();
         const Layers layers = render(frame, frame.world);
         // The technique reference keeps its layers in single precision.
-        const bool single = frame.options.volumetrics.technique == volumetrics::Technique::reference;
+        const bool single = frame.options.volumetrics.technique == "reference";
         check_values(layers, single ? std::numeric_limits<float>::max() : half_max, findings);
         if (frame.comparable) {
             Random random{seed_, 4, static_cast<std::uint64_t>(number)};

@@ -56,7 +56,7 @@ struct Row {
         return keys;
     }
     /// Of the section's heading, while only the technique's own section is open, as at first.
-    static int heading_y(const SettingsSection* section, volumetrics::Technique technique) {
+    static int heading_y(const SettingsSection* section, const std::string& technique) {
         std::size_t row = keys(nullptr).size();
         for (const SettingsSection& s : settings_sections()) {
             if (!matters(s, technique)) continue;
@@ -69,7 +69,7 @@ struct Row {
 
 /// Opens the section of a technique's setting and its combo and chooses its `index`th value. The section stays
 /// open, so that settings are to be chosen from the last section upwards.
-void choose(GameProcess& game, volumetrics::Technique technique, const std::string& key, int index) {
+void choose(GameProcess& game, const std::string& technique, const std::string& key, int index) {
     const auto click = [&](int y) {
         game.move_pointer(Row::x, y);
         game.frames(1);
@@ -159,7 +159,7 @@ TEST(Window, WalkLookAndTheDebugUi) {
     EXPECT_GT(mean_difference(blurred.picture, turned.picture), 0.01) << "fog";
     const double noise = mean_difference(blurred.picture, same.picture);
 
-    constexpr auto march = volumetrics::Technique::ray_march;
+    constexpr auto march = "ray_march";
     choose(game, march, "filter", 0);
     const GameProcess::State grainy = game.state();
     EXPECT_EQ(setting(grainy, "filter"), "none");

@@ -15,7 +15,7 @@ using ::testing::ElementsAre;
 
 class VolumetricsBillboards : public GlTest {
   protected:
-    VolumetricsBillboards() { s.technique = volumetrics::Technique::billboards; }
+    VolumetricsBillboards() { s.technique = "billboards"; }
 
     StubHost host;
     Settings s = without_fade();

@@ -24,7 +24,7 @@ class VolumetricsFroxelRange : public GlTest {
         host.vertical_fov = 1e-4F;
         host.view_depth = [this](int x, int) { return depth(x); };
         settings = plain_settings(1);
-        settings.technique = volumetrics::Technique::froxel;
+        settings.technique = "froxel";
         settings.froxels_x = 256;
         settings.froxels_y = 8;
     }

@@ -17,7 +17,7 @@ using ::testing::ElementsAre;
 class VolumetricsParticles : public GlTest {
   protected:
     VolumetricsParticles() {
-        s.technique = volumetrics::Technique::particles;
+        s.technique = "particles";
         s.particle_count = 4096;
         host.size = {48, 32};
         host.view_depth = [](int, int) { return 30.0F; };
@@ -290,7 +290,7 @@ TEST_F(VolumetricsParticles, PassesWorkAndMemory) {
     host.size = {96, 64};
     EXPECT_EQ(host.render(s).work.at("volumetrics/particles_simulate")[int(gl::Work::shadow_lookups)], lookups);
     EXPECT_GT(frame.persistent_bytes, 4000U * 48);
-    s.technique = volumetrics::Technique::ray_march;
+    s.technique = "ray_march";
     EXPECT_LT(host.render(s).persistent_bytes, 20000U);
     host.global.clear();
     EXPECT_EQ(host.render(s).persistent_bytes, 0U);

@@ -48,7 +48,7 @@ TEST_F(VolumetricsPasses, WithoutMediumNothingIsAddedOrHeld) {
 TEST_F(VolumetricsPasses, TechniqueOffIsAsIfThereWereNoMedium) {
     host.global = {fog};
     Settings settings;
-    settings.technique = volumetrics::Technique::off;
+    settings.technique = "off";
     const Frame frame = host.render(settings);
     EXPECT_THAT(frame.live_passes, IsEmpty());
     EXPECT_EQ(frame.skipped.at("volumetrics/march"), "technique is off");

@@ -17,7 +17,7 @@ constexpr double pi = std::numbers::pi;
 
 Settings reference_settings(int steps = 1024) {
     Settings settings;  // dither and blur as they are by default: they must not matter
-    settings.technique = volumetrics::Technique::reference;
+    settings.technique = "reference";
     settings.reference_steps = steps;
     return settings;
 }

@@ -47,7 +47,8 @@ class Volumetrics {
     /// Uploads this frame's uniforms and media; called before add_passes, and before the host's lighting pass runs.
     void prepare(const Inputs& inputs, const Settings& settings);
 
-    /// The view jumps: nothing of earlier frames may show in the next. What does not depend on the view stays.
+    /// The view jumps (a camera cut): nothing of earlier frames shows in the next. What does not depend on the
+    /// view, as the light volumes, stays.
     void forget_history();
 
     /// Bytes held between frames (history, tables), without the pass list's transient textures.

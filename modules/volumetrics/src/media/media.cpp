@@ -11,6 +11,7 @@
 #include "reconstruction/noise.h"
 #include "reconstruction/reconstruction.h"
 #include "shaders/lib/glm_subset.h"
+#include "volumetrics/technique.h"
 
 TYNDALL_GLSL_BEGIN
 #include "shaders/lib/phase.glsl"
@@ -136,7 +137,7 @@ void add_attenuating(const Inputs& inputs, FrameMedia& media) {
 
 void add_local(const Inputs& inputs, const Settings& settings, FrameMedia& media) {
     const FroxelGrid grid = froxel_grid(inputs, settings);
-    if (settings.technique == Technique::reference)
+    if (technique(settings.technique).traits.unseen_local_media)
         add_all_local(inputs, grid, media);
     else
         add_local_in_view(inputs, grid, media);
@@ -145,7 +146,8 @@ void add_local(const Inputs& inputs, const Settings& settings, FrameMedia& media
     media.data.froxel_begins = grid.begins;
     media.data.froxel_lengths = grid.lengths;
     media.data.medium_depths = {0, 1e9F, 0, 0};
-    if (!media.has_global && !media.local_froxels.empty() && settings.technique != Technique::reference)
+    if (!media.has_global && !media.local_froxels.empty() &&
+        !technique(settings.technique).traits.unseen_local_media)
         media.data.medium_depths = glm::vec4(view_depths(media.local_froxels, grid), 0, 0);
     media.data.froxel_depths = {grid.nearest, grid.farthest, 0, 0};
 }
@@ -161,11 +163,6 @@ void set_stepping(const Settings& settings, shared::VolumetricsData& data) {
         first = std::expm1(growth) / std::expm1(growth * n);
     }
     data.march = {settings.max_distance, first, ratio, 0};
-}
-
-/// The techniques in closed form know only media that fill space.
-bool has_local_media(Technique technique) {
-    return technique != Technique::analytic_fog && technique != Technique::radial_shafts;
 }
 
 void set_view(const Inputs& inputs, const Settings& settings, shared::VolumetricsData& data) {
@@ -196,9 +193,10 @@ unsigned phase_option(PhaseFunction phase) {
 
 FrameMedia gather_media(const Inputs& inputs, const Settings& settings) {
     FrameMedia media;
-    if (settings.technique == Technique::off) return media;
+    const TechniqueDesc& desc = technique(settings.technique);
+    if (!desc.add) return media;
     add_global(inputs, media);
-    if (has_local_media(settings.technique)) {
+    if (desc.traits.local_media) {
         add_local(inputs, settings, media);
         if (settings.light_transmittance && (inputs.has_sun || inputs.has_lamps)) add_attenuating(inputs, media);
     }
