@@ -163,7 +163,7 @@ class Game {
 
     void next_technique() {
         const std::vector<std::string>& names = volumetrics::technique_names();
-        const auto current = std::ranges::find(names, session_.options.volumetrics.technique);
+        const auto current = std::ranges::find(names, session_.volumetrics.settings.technique);
         const std::string& next = names[static_cast<std::size_t>(current + 1 - names.begin()) % names.size()];
         session_.settings.set("technique", next);
         say("technique: " + next);

@@ -56,7 +56,7 @@ void add_render_command(CLI::App& app) {
         ->check(CLI::Range(0.0, 10.0))
         ->capture_default_str();
     command->add_option("--layer", o->layer, "what to write")
-        ->check(CLI::IsMember(Renderer::layer_names()))
+        ->check(CLI::IsMember(Session::layer_names()))
         ->capture_default_str();
     command->add_option("--stats", o->stats, "JSON with passes, times, work counts, memory and driver");
     command->callback([o] { run(*o); });

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "adapter/volumetrics_adapter.h"
 #include "engine/core/files.h"
 #include "engine/gl/readback.h"
 #include "engine/render/renderer.h"
@@ -45,14 +46,15 @@ class HalfFloat : public GlTest {
     test::SceneBuilder builder_;
     View view_ = look_at({0, 2, 6}, {0, 1.5f, 0}, 1.0f, 0.1f, 1.5f);
     ShaderLibrary& shaders_ = shared_shaders();
-    Renderer renderer_{shaders_};
+    VolumetricsAdapter volumetrics_;
+    Renderer renderer_{shaders_, {&volumetrics_}};
 };
 
 TEST_F(HalfFloat, NoTargetOverflowsAndTheLimitIsReached) {
     FrameOptions options;
     options.more_layers = {"scattering", "transmittance", "emissive"};
     for (const auto filter : {volumetrics::Filter::none, volumetrics::Filter::gaussian15}) {
-        options.volumetrics.filter = filter;
+        volumetrics_.settings.filter = filter;
         draw(options);
         for (const std::string& layer : options.more_layers) expect_finite(renderer_.read_layer(layer), layer);
         expect_finite(gl::read_texture(renderer_.color()), "color");
@@ -73,7 +75,7 @@ TEST_F(HalfFloat, NoTargetOverflowsAndTheLimitIsReached) {
 
 TEST_F(HalfFloat, WithoutAMediumSurfacesAndSkyStayFiniteToo) {
     FrameOptions options;
-    options.volumetrics.technique = "off";
+    volumetrics_.settings.technique = "off";
     draw(options);
     expect_finite(gl::read_texture(renderer_.color()), "color");
 }

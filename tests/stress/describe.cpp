@@ -42,7 +42,7 @@ std::string describe(const StressFrame& frame) {
                                   text(forward), glm::degrees(view.yfov), view.znear);
     for (const auto& light : frame.lights) all += text(light);
     for (const Medium& medium : frame.media) all += text(medium);
-    FrameOptions options = frame.options;
+    StressOptions options = frame.options;
     SettingsSet settings;
     settings.add(volumetrics::settings_table(), &options.volumetrics);
     settings.add(render_settings_table(), &options.render);

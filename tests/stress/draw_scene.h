@@ -18,7 +18,7 @@ struct Structure {
     int heights = 0;
     bool local = false, local_emission = false;
     bool chromatic = false;
-    FrameOptions options;
+    StressOptions options;
 };
 
 /// Camera, objects, lights and media. The sun comes from `of_sequence`: a new one costs a new sky.

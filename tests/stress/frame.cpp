@@ -85,7 +85,7 @@ void limit_work(StressFrame& frame) {
 }
 
 /// What the closed forms and the ground truth agree about: see compare.h.
-void moderate(FrameOptions& options, Random& random) {
+void moderate(StressOptions& options, Random& random) {
     options.volumetrics.steps = static_cast<int>(random.logarithmic(12, 128));
     options.volumetrics.max_distance = static_cast<float>(random.logarithmic(120, 2000));
     options.volumetrics.stepping_strength = std::min(options.volumetrics.stepping_strength, 4.0f);

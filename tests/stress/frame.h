@@ -10,6 +10,10 @@ namespace tyndall::stress {
 /// Frames come in sequences that share size, resources and kind of scene, with a camera that moves or jumps.
 constexpr int sequence_length = 4;
 
+struct StressOptions : FrameOptions {
+    volumetrics::Settings volumetrics;
+};
+
 /// One frame: a pure function of seed and number.
 struct StressFrame {
     World world = World::nothing;
@@ -23,7 +27,7 @@ struct StressFrame {
     float exposure_ev100 = 0;
     View view;
     glm::ivec2 size{1};
-    FrameOptions options;
+    StressOptions options;
     bool cut = false;         ///< a camera jump that the renderer is told of
     bool comparable = false;  ///< within what the ground truth follows: see compare.h
 };

@@ -22,7 +22,8 @@ bool has_surface(const Image& depth) {
 }  // namespace
 
 Layers Run::render(const StressFrame& frame, World world) {
-    auto& [scene, renderer] = worlds_[world];
+    auto& [scene, volumetrics, renderer] = worlds_[world];
+    volumetrics->settings = frame.options.volumetrics;
     const Scene posed = pose_scene(scene, frame);
     renderer->render(posed, frame.view, frame.size, frame.options);
     return read_layers(*renderer);

@@ -36,7 +36,7 @@ void draw_settings(const SettingsTable& table, void* object, SettingEffect effec
         if (setting.effect == effect) setting.set(object, draw(setting, random.fork(setting.key)));
 }
 
-void limit_resources(FrameOptions& options) {
+void limit_resources(StressOptions& options) {
     volumetrics::Settings& v = options.volumetrics;
     halve_until(v.froxels_x, v.froxels_y, v.froxels_z, 100'000);
     for (int* side : {&v.froxels_x, &v.froxels_y, &v.froxels_z}) *side |= 1;  // see odd() in frame.cpp

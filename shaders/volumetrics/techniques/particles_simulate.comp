@@ -18,7 +18,7 @@
 
 layout(local_size_x = 64) in;
 
-layout(std430, binding = BINDING_SPRITES) writeonly buffer ParticleBuffer { Particle particles[]; };
+layout(std430, binding = BINDING_SPRITES) writeonly buffer ParticleBuffer { ParticleSprite particles[]; };
 
 uniform uint first;  // of this dispatch
 uniform uint count;
@@ -123,7 +123,7 @@ vec3 lamp_light(Ray ray, float begin, float end, Medium m) {
 #endif
 }
 
-Particle lit_particle(vec3 center, vec4 clip, float share) {
+ParticleSprite lit_particle(vec3 center, vec4 clip, float share) {
     float distance = max(length(center), 1.0e-4);
     vec2 uv = clip.w > 1.0e-4 ? clamp(0.5 * clip.xy / clip.w + 0.5, 0.0, 1.0) : vec2(0.5);
     Ray ray = Ray(volumetrics.eye.xyz, center / distance, max(clip.w / distance, 0.01), uv);
@@ -162,7 +162,7 @@ Particle lit_particle(vec3 center, vec4 clip, float share) {
     float scale = volume * share;
     light *= front;
     if (any(isnan(light)) || any(isinf(light))) light = vec3(0.0);  // of densities that no number holds
-    Particle particle;
+    ParticleSprite particle;
     particle.center_radius = vec4(center, radius);
     particle.light = scale * vec4(light, mean_channel(certain * own.effective_length));
     particle.extinction = medium < 0 ? vec4(0.0) : vec4(scale * m.optical_depth, 1.0);
@@ -183,7 +183,7 @@ void main() {
         center = shape_particle(local_media[medium], index);
     }
     vec4 clip = view_projection * vec4(center, 1.0);
-    Particle particle = Particle(vec4(0.0), vec4(0.0), vec4(0.0));
+    ParticleSprite particle = ParticleSprite(vec4(0.0), vec4(0.0), vec4(0.0));
     if (share > 0.0 && in_view(center, clip)) particle = lit_particle(center, clip, share);
     particles[first + index] = particle;
     flush_work();

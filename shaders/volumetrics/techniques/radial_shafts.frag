@@ -22,7 +22,7 @@ void main() {
     float depth = texelFetch(depth_texture, ivec2(gl_FragCoord.xy), 0).r;
     count_work(WORK_TEXTURE_FETCHES, 1u);
     float surface = ray_distance_from_view_depth(view_depth_from_buffer(depth, volumetrics.eye.w), ray.forward_cosine);
-    Fog fog = fog_over_ray(ray, surface, is_background(depth), ambient);
+    ClosedFormFog fog = fog_over_ray(ray, surface, is_background(depth), ambient);
     out_scattering = round_to_half(vec4(fog.glow, average(fog.transmittance)));
     out_sun = round_to_half(vec4(fog.sun, 0.0));
 #if CHROMATIC

@@ -61,7 +61,7 @@ void dispatch(const gl::Program& shader, const ParticleBatch& batch) {
 }
 
 BufferRef add_simulate(Frame& frame, gl::Buffer& sprites, std::vector<ParticleBatch> batches) {
-    const std::size_t bytes = (batches.back().first + batches.back().count) * sizeof(shared::Particle);
+    const std::size_t bytes = (batches.back().first + batches.back().count) * sizeof(shared::ParticleSprite);
     if (sprites.size() != bytes) sprites = gl::Buffer(bytes, "volumetrics particles");
     BufferRef particles = frame.passes.import_buffer("volumetrics/particles", sprites.id());
     const gl::Program& shader = frame.program(simulate_program, {{"LAMPS", frame.inputs.has_lamps ? 2 : 0}});
