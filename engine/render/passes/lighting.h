@@ -16,7 +16,7 @@ struct LightSources {
     std::vector<BufferRef> buffers;  ///< and read
     std::function<void()> bind;      ///< binds those and the frame block
     bool medium_transmittance = false;  ///< media dim light on its way to surfaces
-    int light_volumes = 0;              ///< of them, local ones: see volumetrics::LightTransmittance
+    bool light_volumes = false;         ///< of them, local ones: see volumetrics::LightTransmittance
 };
 
 /// Adds the pass "lighting": the radiance of all surfaces in the G-buffer, black where there is none. Returns the

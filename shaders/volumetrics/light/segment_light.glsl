@@ -35,7 +35,7 @@ float sunlight_fall(Ray ray, Segment segment, float x) {
 // What the local media leave of sunlight on its way to the segment: the mean over two points, each in its half of the
 // light gathered.
 vec3 local_sun_transmittance(Ray ray, Segment segment, float fall) {
-#if SUN_VOLUME
+#if LIGHT_VOLUMES
     float path_length = segment.end - segment.begin;
     float offset = FROXEL_HISTORY == 0 && VISIBILITY == 0 ? segment.offset : 0.5;
     vec3 sum = vec3(0.0);

@@ -18,7 +18,7 @@
 #define RAYLEIGH 1
 #endif
 #endif
-#define HEIGHT_COUNT (HEIGHT_MEDIA == 1 ? 1u : volumetrics.counts.x)
+#define HEIGHT_COUNT (HEIGHT_MEDIA == 1 ? 1u : volumetrics.height_media_count)
 
 // Keeps sums and products of optical depths finite; exp(-x) is 0 long before.
 const float MAX_OPTICAL_DEPTH = 1.0e30f;

@@ -24,8 +24,6 @@ layout(binding = 0) uniform sampler2D depth_texture;
 #if LOCAL_MEDIA
 layout(binding = 1) uniform sampler3D froxel_scattering;  // rgb sigma_s, a sum of anisotropy * mean sigma_s
 layout(binding = 2) uniform sampler3D froxel_extinction;  // rgb sigma_t
-#endif
-#if LOCAL_MEDIA == 2
 layout(binding = 3) uniform sampler3D froxel_emission;
 #endif
 #if VISIBILITY && LOCAL_MEDIA
@@ -58,12 +56,10 @@ vec3 add_local_media(Ray ray, float w, float path_length, inout Medium m, inout 
 #if LOCAL_MEDIA
     if (w > 1.0) return sigma_t;
     vec3 uvw = vec3(ray.uv, w);
-    count_work(WORK_TEXTURE_FETCHES, 1u + uint(LOCAL_MEDIA));
+    count_work(WORK_TEXTURE_FETCHES, 2u + volumetrics.local_emission);
     vec4 scattering = textureLod(froxel_scattering, uvw, 0.0);
     sigma_t = textureLod(froxel_extinction, uvw, 0.0).rgb;
-#if LOCAL_MEDIA == 2
-    m.emission += textureLod(froxel_emission, uvw, 0.0).rgb;
-#endif
+    if (volumetrics.local_emission != 0u) m.emission += textureLod(froxel_emission, uvw, 0.0).rgb;
     add_particles(scattering.rgb, scattering.a, m);
     m.optical_depth += sigma_t * path_length;
     sigma_s += scattering.rgb;
@@ -93,7 +89,7 @@ Extinction local_sun_front = Extinction(0.0);  // optical depth of the local med
 
 // As sun_segment, through local media too.
 SunSegment sun_part(Ray ray, float begin, float end, Optics optics, inout Extinction front) {
-#if SUN_VOLUME
+#if LIGHT_VOLUMES
     Extinction back = to_extinction(sun_optical_depth(ray.origin.y + ray.direction.y * end, -sun_direction()));
     Extinction local_back = to_extinction(local_sun_optical_depth(ray.origin + ray.direction * end));
     SunSegment sun = sun_between(optics.depth, front + local_sun_front, back + local_back, end - begin);
@@ -202,7 +198,7 @@ void main() {
     float surface = ray_distance_from_view_depth(view_depth_from_buffer(depth, volumetrics.eye.w), ray.forward_cosine);
     // Without a global medium only the depths that hold local ones.
     vec2 medium = volumetrics.medium_depths.xy / ray.forward_cosine;
-    float end = min(surface, min(volumetrics.march.x, medium.y));
+    float end = min(surface, min(volumetrics.max_distance, medium.y));
     float offset = noise_offset(uvec2(gl_FragCoord.xy));
 
     March march = March(vec3(0.0), Extinction(1.0));
@@ -217,15 +213,15 @@ void main() {
 #endif
 #endif
     float a = medium.x;
-    float step_length = (end - a) * volumetrics.march.y;
-    uint steps = a < end ? volumetrics.counts.z : 0u;
+    float step_length = (end - a) * volumetrics.first_step;
+    uint steps = a < end ? volumetrics.steps : 0u;
     for (uint i = 0u; i < steps && largest(march.transmittance) > OPAQUE; ++i) {
         float b = i + 1u == steps ? end : min(a + step_length, end);
         march_segment(ray, a, b, offset, sun_front, march);
-        step_length *= volumetrics.march.z;
+        step_length *= volumetrics.step_growth;
         a = b;
     }
-    if (surface > end && end == volumetrics.march.x) march_tail(ray, end, surface, is_background(depth), ambient, sun_front, march);
+    if (surface > end && end == volumetrics.max_distance) march_tail(ray, end, surface, is_background(depth), ambient, sun_front, march);
 
     out_scattering = round_to_half(vec4(march.radiance, average(march.transmittance)));
 #if CHROMATIC

@@ -81,7 +81,7 @@ void main() {
     count_work(WORK_TEXTURE_FETCHES, 1u);
 #endif
 #if LAMPS
-    Parted lamps = lamps_to(ray, min(surface, volumetrics.march.x));
+    Parted lamps = lamps_to(ray, min(surface, volumetrics.max_distance));
 #if VISIBILITY
     out_lamps = round_to_half(vec4(lamps.whole, 0.0));
     out_lamps_share = visible_share(lamps);

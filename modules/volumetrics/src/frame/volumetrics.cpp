@@ -224,7 +224,7 @@ void Volumetrics::prepare(const Inputs& inputs, const Settings& settings) {
     impl_->media = gather_media(inputs, settings);
     impl_->light_passes_added = false;
     impl_->resources.light_volumes.prepare(inputs, settings, impl_->media);
-    if (impl_->media.empty() && impl_->resources.light_volumes.axis() == 0)
+    if (impl_->media.empty() && !impl_->resources.light_volumes.any())
         impl_->release();
     else
         impl_->upload(settings);
@@ -235,8 +235,8 @@ LightTransmittance Volumetrics::add_light_passes(PassList& passes, const Inputs&
     impl_->light_passes_added = true;
     if (!impl_->media.attenuating.empty()) volumes.add_passes(passes, impl_->resources.shaders, inputs);
     const bool on = settings.light_transmittance && settings.technique != Technique::off;
-    return {.any = on && (impl_->media.has_global || volumes.axis() != 0),
-            .light_volumes = volumes.axis(),
+    return {.any = on && (impl_->media.has_global || volumes.any()),
+            .light_volumes = volumes.any(),
             .sun_volume = volumes.sun(),
             .lamp_volumes = volumes.lamps()};
 }

@@ -33,7 +33,7 @@ TextureRef add_froxel_runs(PassList& passes, const PassResources& resources, con
         passes.create("volumetrics/froxel_runs", {.format = GL_RG32UI, .size = {size.x * words, size.y, 1}});
     const gl::Program& shader =
         resources.shaders.get(runs_program, {{"EMISSION", media.local_emission},
-                                             {"LIGHT_VOLUMES", resources.light_volumes.axis() & 1},
+                                             {"LIGHT_VOLUMES", static_cast<bool>(resources.light_volumes.sun())},
                                              {"COUNT_WORK", inputs.count_work}});
     passes.add(
         "volumetrics/froxel_runs",

@@ -21,7 +21,7 @@ const ProgramDesc program{.name = "volumetrics/billboards",
                           .axes = {{"HEIGHT_MEDIA", {0, 1, MAX_HEIGHT_MEDIA}},
                                    {"HAS_SUN", {0, 1}},
                                    {"LAMPS", {0, 1}},  // 1: at a point, as LampIntegration::center
-                                   {"LIGHT_VOLUMES", {0, 1, 2, 3}},
+                                   {"LIGHT_VOLUMES", {0, 1}},
                                    {"CHROMATIC", {0, 1}},
                                    {"COUNT_WORK", {0, 1}}},
                           .valid = is_light_volume_permutation};
@@ -101,7 +101,7 @@ Layers add_draw(PassList& passes, const PassResources& resources, const Inputs& 
     const gl::Program& shader = resources.shaders.get(program, {{"HEIGHT_MEDIA", height_media_axis(media)},
                                                                 {"HAS_SUN", inputs.has_sun},
                                                                 {"LAMPS", inputs.has_lamps},
-                                                                {"LIGHT_VOLUMES", resources.light_volumes.axis()},
+                                                                {"LIGHT_VOLUMES", resources.light_volumes.any()},
                                                                 {"CHROMATIC", media.chromatic},
                                                                 {"COUNT_WORK", inputs.count_work}});
     const bool lit = inputs.has_sun || inputs.has_lamps || inputs.has_ambient;

@@ -17,7 +17,7 @@ const ProgramDesc program{.name = "volumetrics/froxel_light",
                                    {"LAMPS", {0, 1, 2}},  // 1 + LampIntegration
                                    {"CHROMATIC", {0, 1}},
                                    {"FROXEL_HISTORY", {0, 1}},
-                                   {"LIGHT_VOLUMES", {0, 1, 2, 3}},
+                                   {"LIGHT_VOLUMES", {0, 1}},
                                    {"COUNT_WORK", {0, 1}}},
                           .valid = is_permutation};
 const ProgramRegistry::Registration registration(program);
@@ -47,7 +47,7 @@ FroxelLight add_froxel_light(PassList& passes, const PassResources& resources, c
                                                                 {"LAMPS", inputs.has_lamps ? lamps : 0},
                                                                 {"CHROMATIC", media.chromatic},
                                                                 {"FROXEL_HISTORY", history != nullptr},
-                                                                {"LIGHT_VOLUMES", resources.light_volumes.axis()},
+                                                                {"LIGHT_VOLUMES", resources.light_volumes.any()},
                                                                 {"COUNT_WORK", inputs.count_work}});
     const bool lit = inputs.has_sun || inputs.has_lamps || inputs.has_ambient;
     passes.add(
@@ -66,7 +66,7 @@ FroxelLight add_froxel_light(PassList& passes, const PassResources& resources, c
                 if (*ref) *ref = builder.storage_write(*ref);
         },
         [froxels, columns, light, history, bind_lighting = lit ? inputs.bind_lighting : nullptr, &shader,
-         &resources, local, emits = media.local_emission,
+         &resources, emits = media.local_emission,
          groups = glm::uvec3((size + glm::ivec3(group_side, group_side, run) - 1) /
                              glm::ivec3(group_side, group_side, run))](const PassContext& context) {
             const auto texture = [&](TextureRef ref) { return ref ? context.texture(ref) : gl::TextureView(); };
@@ -83,7 +83,6 @@ FroxelLight add_froxel_light(PassList& passes, const PassResources& resources, c
             }
             resources.uniforms.bind(GL_UNIFORM_BUFFER, BINDING_VOLUMETRICS);
             resources.light_volumes.bind();
-            if (local) shader.set("local_emission", emits ? 1 : 0);
             if (history) shader.set("visibility_jitter", history->jitter());
             shader.use();
             glDispatchCompute(groups.x, groups.y, groups.z);

@@ -21,7 +21,7 @@ const ProgramDesc simulate_program{
     .stages = {{GL_COMPUTE_SHADER, "shaders/volumetrics/techniques/particles_simulate.comp"}},
     .axes = {has_sun,
              {"LAMPS", {0, 2}},  // 2: over a segment, as LampIntegration::segment
-             {"LIGHT_VOLUMES", {0, 1, 2, 3}},
+             {"LIGHT_VOLUMES", {0, 1}},
              count_work},
     .valid = is_light_volume_permutation};
 const ProgramDesc draw_program{.name = "volumetrics/particles",
@@ -77,7 +77,7 @@ BufferRef add_simulate(PassList& passes, PassResources& resources, const Inputs&
     const gl::Program& shader =
         resources.shaders.get(simulate_program, {{"HAS_SUN", inputs.has_sun},
                                                  {"LAMPS", inputs.has_lamps ? 2 : 0},
-                                                 {"LIGHT_VOLUMES", resources.light_volumes.axis()},
+                                                 {"LIGHT_VOLUMES", resources.light_volumes.any()},
                                                  {"COUNT_WORK", inputs.count_work}});
     passes.add(
         "volumetrics/particles_simulate",

@@ -17,11 +17,11 @@ const ProgramDesc program{.name = "volumetrics/march",
                           .stages = {{GL_VERTEX_SHADER, "shaders/volumetrics/techniques/view_ray.vert"},
                                      {GL_FRAGMENT_SHADER, "shaders/volumetrics/techniques/ray_march.frag"}},
                           .axes = {{"HEIGHT_MEDIA", {0, 1, MAX_HEIGHT_MEDIA}},
-                                   {"LOCAL_MEDIA", {0, 1, 2}},  // 2: some emit
+                                   {"LOCAL_MEDIA", {0, 1}},
                                    {"HAS_SUN", {0, 1}},
                                    {"LAMPS", {0, 1, 2}},  // 1 + LampIntegration
                                    {"CHROMATIC", {0, 1}},
-                                   {"LIGHT_VOLUMES", {0, 1, 2, 3}},
+                                   {"LIGHT_VOLUMES", {0, 1}},
                                    {"VISIBILITY", {0, 1}},  // see reason_for_light
                                    {"COUNT_WORK", {0, 1}}},
                           .valid = is_valid};
@@ -29,14 +29,13 @@ const ProgramRegistry::Registration registration(program);
 
 Permutation permutation(const Inputs& inputs, const Settings& settings, const FrameMedia& media,
                         const LightVolumes& volumes, bool visibility) {
-    const bool local = !media.local.empty();
     const int lamps = 1 + static_cast<int>(settings.lamp_integration);
     return {{"HEIGHT_MEDIA", height_media_axis(media)},
-            {"LOCAL_MEDIA", local + (local && media.local_emission)},
+            {"LOCAL_MEDIA", !media.local.empty()},
             {"HAS_SUN", inputs.has_sun},
             {"LAMPS", inputs.has_lamps ? lamps : 0},
             {"CHROMATIC", media.chromatic},
-            {"LIGHT_VOLUMES", volumes.axis()},
+            {"LIGHT_VOLUMES", volumes.any()},
             {"VISIBILITY", visibility},
             {"COUNT_WORK", inputs.count_work}};
 }
@@ -88,11 +87,12 @@ MarchedLight add_march(PassList& passes, const PassResources& resources, const I
             gl::apply({});
             context.bind_framebuffer();
             if (bind_lighting) bind_lighting();
-            const BoundTextures bound{{texture(depth), resources.nearest},
-                                      {texture(froxels.scattering), resources.linear},
-                                      {texture(froxels.extinction), resources.linear},
-                                      {texture(froxels.emission), resources.linear},
-                                      {texture(froxels.runs), resources.nearest}};
+            const BoundTextures bound{
+                {texture(depth), resources.nearest},
+                {texture(froxels.scattering), resources.linear},
+                {texture(froxels.extinction), resources.linear},
+                {texture(froxels.emission ? froxels.emission : froxels.scattering), resources.linear},
+                {texture(froxels.runs), resources.nearest}};
             resources.uniforms.bind(GL_UNIFORM_BUFFER, BINDING_VOLUMETRICS);
             resources.light_volumes.bind();
             resources.noise.bind();

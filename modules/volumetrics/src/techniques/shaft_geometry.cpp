@@ -57,7 +57,7 @@ glm::vec4 ray_cuts(const FrameMedia& media, const Settings& settings) {
     const float clearest = std::min({t.r, t.g, t.b});
     const bool constant =
         std::max({t.r, t.g, t.b}) > 0 || glm::vec3(media.data.homogeneous_emission) != glm::vec3(0);
-    const unsigned heights = media.data.counts.x;
+    const unsigned heights = media.data.height_media_count;
     if (heights == 0 || (heights == 1 && !constant)) return {1, 0, 0, 2 * farthest};
     float falloff = farthest;
     for (unsigned i = 0; i < heights; ++i) falloff = std::min(falloff, media.data.height[i].sigma_t_falloff.w);
