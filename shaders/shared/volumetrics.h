@@ -21,6 +21,7 @@
 #define NOISE_TIME_OWN 1
 #define NOISE_TIME_GOLDEN_RATIO 2
 #define NOISE_TIME_R2 3
+#define NOISE_TILE_OFFSETS 256  // of the largest tile
 #define NOISE_TEXTURE_SIDE 128
 #define NOISE_TEXTURE_SLICES 32
 
