@@ -16,8 +16,8 @@ struct ProgramLimits {
     int draw_buffers = 0;   ///< the highest location of a fragment's output, and 1
 };
 
-/// What OpenGL 4.5 promises everywhere (chapter 23.5); but for storage blocks in vertex shaders, of which it promises
-/// none: transforms and sprites need them, and whether the driver has them is checked as the rest.
+/// What OpenGL 4.5 promises everywhere (chapter 23.5); but for storage blocks in vertex shaders, of which it
+/// promises none: transforms and sprites need them, and whether the driver has them is checked as the rest.
 inline constexpr ProgramLimits promised_limits{8, 8, 8, 8, 8, 16, 8, 8};
 
 [[nodiscard]] ProgramLimits program_needs(GLuint program);

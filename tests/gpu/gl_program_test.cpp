@@ -81,7 +81,6 @@ TEST_F(GlProgram, DefinesChooseThePermutation) {
 TEST_F(GlProgram, SaysWhatItNeedsOfTheDriver) {
     write(
         "layout(std430, binding = 5) readonly buffer Values { float values[]; };\n"
-        "layout(std430, binding = 6) readonly buffer Unused { float unused[]; };\n"
         "layout(binding = 9) uniform sampler2DArrayShadow maps;\n"
         "layout(binding = 2) uniform usampler3D counts[2];\n"
         "layout(binding = 3, r32f) writeonly uniform image2D target;\n"

@@ -7,6 +7,10 @@
 //
 // FROXEL_HISTORY: sun and lamps are stored apart, unshadowed, with the visible share of them, which froxel_history.comp averages over the
 // frames. Visibility is then sampled all over the froxel, not on the column's ray alone.
+//
+// LOCAL_MEDIA: local media are in view or dim light.
+#define LIGHT_VOLUMES LOCAL_MEDIA
+
 #include "shaders/lib/sampling_noise.glsl"
 #include "shaders/lib/pack.glsl"
 #include "shaders/volumetrics/media/froxel_grid.glsl"
@@ -72,14 +76,16 @@ vec3 beside(Ray ray, vec2 uv) {
 // Adds the local media of a froxel to the segment and its medium.
 void add_local_media(ivec3 froxel, inout Segment segment, inout Medium m) {
 #if LOCAL_MEDIA
-    count_work(WORK_TEXTURE_FETCHES, 2u + volumetrics.local_emission);
-    vec4 scattering = texelFetch(froxel_scattering, froxel, 0);
-    vec3 sigma_t = texelFetch(froxel_extinction, froxel, 0).rgb;
-    if (volumetrics.local_emission != 0u) m.emission += texelFetch(froxel_emission, froxel, 0).rgb;
-    add_particles(scattering.rgb, scattering.a, m);
-    m.optical_depth += sigma_t * (segment.end - segment.begin);
-    segment.sigma_s += scattering.rgb;
-    segment.sigma_t += sigma_t;
+    if (volumetrics.local_media_count > 0u) {
+        count_work(WORK_TEXTURE_FETCHES, 2u + volumetrics.local_emission);
+        vec4 scattering = texelFetch(froxel_scattering, froxel, 0);
+        vec3 sigma_t = texelFetch(froxel_extinction, froxel, 0).rgb;
+        if (volumetrics.local_emission != 0u) m.emission += texelFetch(froxel_emission, froxel, 0).rgb;
+        add_particles(scattering.rgb, scattering.a, m);
+        m.optical_depth += sigma_t * (segment.end - segment.begin);
+        segment.sigma_s += scattering.rgb;
+        segment.sigma_t += sigma_t;
+    }
 #endif
     segment.anisotropy = m.anisotropy;
 }

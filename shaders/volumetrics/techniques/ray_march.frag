@@ -7,6 +7,9 @@
 // VISIBILITY: the unshadowed light of sun and lamps, without noise, and the visible share of it are stored apart
 // (relight.frag), so that only the latter is filtered. Local media are then sampled in each run of
 // froxel slices in which they hardly change.
+//
+// LOCAL_MEDIA: 1 they only dim light, 2 they are in view too.
+#define LIGHT_VOLUMES (LOCAL_MEDIA > 0)
 #ifndef VISIBILITY
 #define VISIBILITY 0
 #endif
@@ -21,12 +24,12 @@
 #include "shaders/lib/pack.glsl"
 
 layout(binding = 0) uniform sampler2D depth_texture;
-#if LOCAL_MEDIA
+#if LOCAL_MEDIA == 2
 layout(binding = 1) uniform sampler3D froxel_scattering;  // rgb sigma_s, a sum of anisotropy * mean sigma_s
 layout(binding = 2) uniform sampler3D froxel_extinction;  // rgb sigma_t
 layout(binding = 3) uniform sampler3D froxel_emission;
 #endif
-#if VISIBILITY && LOCAL_MEDIA
+#if VISIBILITY && LOCAL_MEDIA == 2
 layout(binding = 4) uniform usampler2D froxel_runs;
 #endif
 
@@ -53,7 +56,7 @@ const float OPAQUE = 2.98e-8;
 // Adds the local media at a place w of the froxels to a segment of the global ones; returns their sigma_t.
 vec3 add_local_media(Ray ray, float w, float path_length, inout Medium m, inout vec3 sigma_s) {
     vec3 sigma_t = vec3(0.0);
-#if LOCAL_MEDIA
+#if LOCAL_MEDIA == 2
     if (w > 1.0) return sigma_t;
     vec3 uvw = vec3(ray.uv, w);
     count_work(WORK_TEXTURE_FETCHES, 2u + volumetrics.local_emission);
@@ -80,7 +83,7 @@ void add_lamps(Ray ray, Segment segment, vec3 transmittance) {
 }
 #endif
 
-#if VISIBILITY && LOCAL_MEDIA
+#if VISIBILITY && LOCAL_MEDIA == 2
 const int MAX_PARTS = 64;  // of a segment that are told apart for the place of its visibility
 FroxelRun run = FroxelRun(0, 0, 0.0, false, 0, -1, uvec2(0u));
 
@@ -169,7 +172,7 @@ void march_segment(Ray ray, float a, float b, float offset, inout Extinction sun
     count_work(WORK_MEDIUM_SAMPLES, 1u);
     vec3 constant_sigma_s = volumetrics.homogeneous_sigma_s.rgb;
     vec3 constant_sigma_t = volumetrics.homogeneous_sigma_t.rgb;
-#if LOCAL_MEDIA
+#if LOCAL_MEDIA == 2
     float w = froxel_w((a + offset * path_length) * ray.forward_cosine);
     constant_sigma_t += add_local_media(ray, w, path_length, m, constant_sigma_s);
 #endif
@@ -206,7 +209,7 @@ void main() {
 #if HAS_SUN
     sun_front = to_extinction(sun_optical_depth(ray.origin.y, -sun_direction()));
 #endif
-#if VISIBILITY && LOCAL_MEDIA
+#if VISIBILITY && LOCAL_MEDIA == 2
     run = froxel_run_before(textureSize(froxel_scattering, 0).z);
 #if HAS_SUN
     local_sun_front = to_extinction(local_sun_optical_depth(ray.origin + ray.direction * medium.x));

@@ -78,16 +78,16 @@ void fill_light_volume(ShaderLibrary& shaders, bool count_work, const gl::Textur
 
 void LightVolumes::prepare(const Inputs& inputs, const Settings& settings, FrameMedia& media) {
     sun_ref_ = lamps_ref_ = {};
-    if (media.attenuating.empty()) return release_volumes();
-    sun_.prepare(inputs, settings, media);
-    lamps_.prepare(inputs, settings, media);
-    if (!any()) return release_volumes();
-    if (!nothing_) {
+    if (!nothing_ && !(media.empty() && media.attenuating.empty())) {
         nothing_ = light_volume_texture({1, 1, 1}, false, "volumetrics light volume of nothing");
         nothing_.clear_float(0, 0, 0, 0);
         const glm::vec4 no_lamp[2] = {glm::vec4(-1), glm::vec4(0)};
         no_lamps_ = gl::Buffer::of(std::span<const glm::vec4>(no_lamp), "volumetrics lamp volume table of none");
     }
+    if (media.attenuating.empty()) return release_volumes();
+    sun_.prepare(inputs, settings, media);
+    lamps_.prepare(inputs, settings, media);
+    if (!any()) return release_volumes();
     const std::vector<shared::LocalMedium> now = packed(media);
     if (now.size() == uploaded_.size() &&
         std::memcmp(now.data(), uploaded_.data(), now.size() * sizeof now[0]) == 0)

@@ -6,10 +6,7 @@ namespace {
 
 const ProgramDesc program{.name = "volumetrics/froxel_accumulate",
                           .stages = {{GL_COMPUTE_SHADER, "shaders/volumetrics/techniques/froxel_accumulate.comp"}},
-                          .axes = {{"HEIGHT_MEDIA", {0, 1, MAX_HEIGHT_MEDIA}},
-                                   {"LOCAL_MEDIA", {0, 1}},
-                                   {"CHROMATIC", {0, 1}},
-                                   {"COUNT_WORK", {0, 1}}},
+                          .axes = {{"LOCAL_MEDIA", {0, 1}}, {"CHROMATIC", {0, 1}}, {"COUNT_WORK", {0, 1}}},
                           .valid = {}};
 const ProgramRegistry::Registration registration(program);
 
@@ -22,10 +19,8 @@ AccumulatedFroxels add_froxel_accumulate(PassList& passes, const PassResources& 
     AccumulatedFroxels result{.radiance = radiance, .optical_depth = {}};
     if (local && media.chromatic)
         result.optical_depth = passes.create("volumetrics/froxel_optical_depth", passes.desc(radiance));
-    const gl::Program& shader = resources.shaders.get(program, {{"HEIGHT_MEDIA", height_media_axis(media)},
-                                                                {"LOCAL_MEDIA", local},
-                                                                {"CHROMATIC", media.chromatic},
-                                                                {"COUNT_WORK", inputs.count_work}});
+    const gl::Program& shader = resources.shaders.get(
+        program, {{"LOCAL_MEDIA", local}, {"CHROMATIC", media.chromatic}, {"COUNT_WORK", inputs.count_work}});
     passes.add(
         "volumetrics/froxel_accumulate",
         [&](PassBuilder& builder) {

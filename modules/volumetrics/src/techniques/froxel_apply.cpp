@@ -10,11 +10,7 @@ namespace {
 const ProgramDesc program{.name = "volumetrics/froxel_apply",
                           .stages = {{GL_VERTEX_SHADER, "shaders/volumetrics/techniques/view_ray.vert"},
                                      {GL_FRAGMENT_SHADER, "shaders/volumetrics/techniques/froxel_apply.frag"}},
-                          .axes = {{"HEIGHT_MEDIA", {0, 1, MAX_HEIGHT_MEDIA}},
-                                   {"LOCAL_MEDIA", {0, 1}},
-                                   {"HAS_SUN", {0, 1}},
-                                   {"CHROMATIC", {0, 1}},
-                                   {"COUNT_WORK", {0, 1}}},
+                          .axes = {{"HAS_SUN", {0, 1}}, {"CHROMATIC", {0, 1}}, {"COUNT_WORK", {0, 1}}},
                           .valid = {}};
 const ProgramRegistry::Registration registration(program);
 
@@ -39,11 +35,8 @@ Outputs add_froxel_apply(PassList& passes, const PassResources& resources, const
     Outputs outputs;
     outputs.scattering = passes.create("volumetrics/scattering", desc);
     if (media.chromatic) outputs.transmittance = passes.create("volumetrics/transmittance", desc);
-    const gl::Program& shader = resources.shaders.get(program, {{"HEIGHT_MEDIA", height_media_axis(media)},
-                                                                {"LOCAL_MEDIA", !media.local.empty()},
-                                                                {"HAS_SUN", inputs.has_sun},
-                                                                {"CHROMATIC", media.chromatic},
-                                                                {"COUNT_WORK", inputs.count_work}});
+    const gl::Program& shader = resources.shaders.get(
+        program, {{"HAS_SUN", inputs.has_sun}, {"CHROMATIC", media.chromatic}, {"COUNT_WORK", inputs.count_work}});
     // Behind the end of the froxels there are sun and ambient light, but neither lamps nor shadows.
     const bool lit = inputs.has_sun || inputs.has_ambient;
     passes.add(

@@ -6,18 +6,18 @@ namespace tyndall::volumetrics {
 namespace {
 
 bool is_permutation(const Permutation& p) {
-    return is_light_volume_permutation(p) && (p.at("FROXEL_HISTORY") == 0 || p.at("HAS_SUN") + p.at("LAMPS") > 0);
+    if (p.at("LOCAL_MEDIA") == 0 && p.at("HEIGHT_MEDIA") > 1) return false;
+    return p.at("FROXEL_HISTORY") == 0 || p.at("HAS_SUN") + p.at("LAMPS") > 0;
 }
 
 const ProgramDesc program{.name = "volumetrics/froxel_light",
                           .stages = {{GL_COMPUTE_SHADER, "shaders/volumetrics/techniques/froxel_light.comp"}},
                           .axes = {{"HEIGHT_MEDIA", {0, 1, MAX_HEIGHT_MEDIA}},
-                                   {"LOCAL_MEDIA", {0, 1}},
+                                   {"LOCAL_MEDIA", {0, 1}},  // in view, or they dim light
                                    {"HAS_SUN", {0, 1}},
                                    {"LAMPS", {0, 1, 2}},  // 1 + LampIntegration
                                    {"CHROMATIC", {0, 1}},
                                    {"FROXEL_HISTORY", {0, 1}},
-                                   {"LIGHT_VOLUMES", {0, 1}},
                                    {"COUNT_WORK", {0, 1}}},
                           .valid = is_permutation};
 const ProgramRegistry::Registration registration(program);
@@ -39,7 +39,8 @@ FroxelLight add_froxel_light(PassList& passes, const PassResources& resources, c
         if (inputs.has_sun) light.sun = passes.create("volumetrics/froxel_sun", desc);
         if (inputs.has_lamps) light.lamps = passes.create("volumetrics/froxel_lamps", desc);
     }
-    const bool local = !media.local.empty();
+    // Several height media are rare and slow: they have no program of their own without local media.
+    const bool local = !media.local.empty() || resources.light_volumes.any() || height_media_axis(media) > 1;
     const int lamps = 1 + static_cast<int>(settings.lamp_integration);
     const gl::Program& shader = resources.shaders.get(program, {{"HEIGHT_MEDIA", height_media_axis(media)},
                                                                 {"LOCAL_MEDIA", local},
@@ -47,7 +48,6 @@ FroxelLight add_froxel_light(PassList& passes, const PassResources& resources, c
                                                                 {"LAMPS", inputs.has_lamps ? lamps : 0},
                                                                 {"CHROMATIC", media.chromatic},
                                                                 {"FROXEL_HISTORY", history != nullptr},
-                                                                {"LIGHT_VOLUMES", resources.light_volumes.any()},
                                                                 {"COUNT_WORK", inputs.count_work}});
     const bool lit = inputs.has_sun || inputs.has_lamps || inputs.has_ambient;
     passes.add(

@@ -8,8 +8,7 @@ const ProgramDesc visibility_program{
     .name = "volumetrics/radial_visibility",
     .stages = {{GL_VERTEX_SHADER, "shaders/volumetrics/techniques/radial_visibility.vert"},
                {GL_FRAGMENT_SHADER, "shaders/volumetrics/techniques/radial_visibility.frag"}},
-    .axes = {{"HEIGHT_MEDIA", {0, 1, MAX_HEIGHT_MEDIA}},
-             {"INTERVALS", {0, 1}},  // RadialOcclusion
+    .axes = {{"INTERVALS", {0, 1}},  // RadialOcclusion
              {"CHROMATIC", {0, 1}},
              {"COUNT_WORK", {0, 1}}},
     .valid = {}};
@@ -26,13 +25,14 @@ const ProgramRegistry::Registration registration(program);
 /// R16F in `scattering`: the sun's share over each pixel's ray.
 Outputs add_visibility(PassList& passes, const PassResources& resources, const Inputs& inputs,
                        const Settings& settings, const FrameMedia& media, TemporalHistory& history) {
-    Permutation permutation = fog_permutation(inputs, media);
-    permutation["INTERVALS"] = settings.radial_occlusion == RadialOcclusion::intervals;
     const Inputs low = add_depth_downsample(passes, resources, inputs, settings);
     Outputs visibility;
     visibility.scattering =
         passes.create("volumetrics/radial_visibility", {.format = GL_R16F, .size = {low.size, 1}});
-    const gl::Program& shader = resources.shaders.get(visibility_program, permutation);
+    const gl::Program& shader = resources.shaders.get(
+        visibility_program, {{"INTERVALS", settings.radial_occlusion == RadialOcclusion::intervals},
+                             {"CHROMATIC", media.chromatic},
+                             {"COUNT_WORK", inputs.count_work}});
     visibility = add_fog_pass(passes, resources, low, {"volumetrics/radial_visibility", shader, {}, visibility});
     return add_reconstruction(passes, resources, inputs, low, settings, visibility, history);
 }

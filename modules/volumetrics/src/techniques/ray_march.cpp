@@ -7,35 +7,43 @@ namespace tyndall::volumetrics {
 namespace {
 
 bool is_valid(const Permutation& p) {
-    if (!is_light_volume_permutation(p)) return false;
+    const int local = p.at("LOCAL_MEDIA");
+    const bool lit = p.at("HAS_SUN") + p.at("LAMPS") > 0;
+    if (local == 1 && !lit) return false;
+    if (local == 0 && lit && p.at("HEIGHT_MEDIA") > 1) return false;  // see local_media_axis
     if (p.at("VISIBILITY") == 0) return true;
     if (p.at("LAMPS") == 1 || (p.at("LAMPS") == 0 && p.at("HAS_SUN") == 0)) return false;
-    return p.at("LOCAL_MEDIA") == 0 || p.at("CHROMATIC") == 0;
+    return local != 2 || p.at("CHROMATIC") == 0;
 }
 
 const ProgramDesc program{.name = "volumetrics/march",
                           .stages = {{GL_VERTEX_SHADER, "shaders/volumetrics/techniques/view_ray.vert"},
                                      {GL_FRAGMENT_SHADER, "shaders/volumetrics/techniques/ray_march.frag"}},
                           .axes = {{"HEIGHT_MEDIA", {0, 1, MAX_HEIGHT_MEDIA}},
-                                   {"LOCAL_MEDIA", {0, 1}},
+                                   {"LOCAL_MEDIA", {0, 1, 2}},  // 1: they only dim light, 2: in view
                                    {"HAS_SUN", {0, 1}},
                                    {"LAMPS", {0, 1, 2}},  // 1 + LampIntegration
                                    {"CHROMATIC", {0, 1}},
-                                   {"LIGHT_VOLUMES", {0, 1}},
                                    {"VISIBILITY", {0, 1}},  // see reason_for_light
                                    {"COUNT_WORK", {0, 1}}},
                           .valid = is_valid};
 const ProgramRegistry::Registration registration(program);
 
+/// Several height media are rare and slow: lit ones have no program of their own without light volumes.
+int local_media_axis(const Inputs& inputs, const FrameMedia& media, const LightVolumes& volumes) {
+    if (!media.local.empty()) return 2;
+    const bool lit = inputs.has_sun || inputs.has_lamps;
+    return volumes.any() || (lit && height_media_axis(media) > 1) ? 1 : 0;
+}
+
 Permutation permutation(const Inputs& inputs, const Settings& settings, const FrameMedia& media,
                         const LightVolumes& volumes, bool visibility) {
     const int lamps = 1 + static_cast<int>(settings.lamp_integration);
     return {{"HEIGHT_MEDIA", height_media_axis(media)},
-            {"LOCAL_MEDIA", !media.local.empty()},
+            {"LOCAL_MEDIA", local_media_axis(inputs, media, volumes)},
             {"HAS_SUN", inputs.has_sun},
             {"LAMPS", inputs.has_lamps ? lamps : 0},
             {"CHROMATIC", media.chromatic},
-            {"LIGHT_VOLUMES", volumes.any()},
             {"VISIBILITY", visibility},
             {"COUNT_WORK", inputs.count_work}};
 }
