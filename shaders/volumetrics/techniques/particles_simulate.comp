@@ -138,7 +138,8 @@ vec3 lamp_light(Ray ray, float begin, float end, Medium m) {
 Particle lit_particle(vec3 center, vec4 clip, float share) {
     float distance = max(length(center), 1.0e-4);
     vec2 uv = clip.w > 1.0e-4 ? clamp(0.5 * clip.xy / clip.w + 0.5, 0.0, 1.0) : vec2(0.5);
-    Ray ray = Ray(volumetrics.eye.xyz, center / distance, max(clip.w / distance, 0.01), uv);
+    vec3 direction = center / distance;
+    Ray ray = Ray(volumetrics.eye.xyz, direction, max(clip.w / distance, 0.01), uv, direction);
     float begin = max(distance - radius, 0.0);
     float end = distance + radius;
     vec3 point = ray.origin + center;
