@@ -33,10 +33,10 @@ Session::Session(const DrawOptions& o, bool window) : size(o.pixels()) {
     renderer->prepare(scene, context->capabilities().software ? 1.0f : 4.0f);
     options.timer = timer.get();
     const volumetrics::Settings& v = volumetrics.settings;
-    if (context->capabilities().software && v.technique == "ray_march" && v.steps > 256)
+    if (context->capabilities().software && v.technique == "ray_march" && v.march.steps > 256)
         spdlog::warn(
             "on this driver shaders lose light where loops are long: {} steps among many lamps are too many",
-            v.steps);
+            v.march.steps);
 }
 
 void Session::draw(const View& view, double time) {

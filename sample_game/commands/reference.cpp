@@ -89,10 +89,10 @@ void run(const ReferenceOptions& o) {
     const View view = o.view.view(scene, size);
     if (volumetrics.technique == "off") scene.media.clear();
     const reference::Reference integrator(
-        scene, {.light_transmittance = volumetrics.light_transmittance,
-                .phase = {.kind = static_cast<reference::ParticlePhase::Kind>(volumetrics.phase),
-                          .back_anisotropy = volumetrics.phase_back_anisotropy,
-                          .back_weight = volumetrics.phase_back_weight},
+        scene, {.light_transmittance = volumetrics.light.transmittance,
+                .phase = {.kind = static_cast<reference::ParticlePhase::Kind>(volumetrics.light.phase),
+                          .back_anisotropy = volumetrics.light.back_anisotropy,
+                          .back_weight = volumetrics.light.back_weight},
                 .shadows = render.shadows,
                 .ambient = render.ambient,
                 .black_surfaces = o.black_surfaces,

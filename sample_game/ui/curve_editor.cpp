@@ -15,7 +15,7 @@ const ImU32 background = IM_COL32(30, 28, 26, 255), line = IM_COL32(240, 170, 70
             ticks = IM_COL32(150, 150, 150, 160), chosen = IM_COL32(255, 225, 150, 255);
 
 float& part(volumetrics::Settings& settings, int i) {
-    return settings.*volumetrics::froxel_curve_settings[static_cast<std::size_t>(i)];
+    return settings.froxels.*volumetrics::froxel_curve_settings[static_cast<std::size_t>(i)];
 }
 
 /// At 0..1 of the slices.
@@ -73,14 +73,14 @@ void curve_editor(volumetrics::Settings& settings) {
     }
     if (ImGui::IsItemHovered()) {
         const float depth =
-            settings.froxel_far * share_at(curve, std::clamp((mouse.x - origin.x) / size.x, 0.0f, 1.0f));
+            settings.froxels.far * share_at(curve, std::clamp((mouse.x - origin.x) / size.x, 0.0f, 1.0f));
         ImGui::SetTooltip("Slices across, view depth upwards: %.3g m here. Drag the points.", double(depth));
     }
 
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     draw.AddRectFilled(origin, ImVec2(origin.x + size.x, origin.y + size.y), background, 4);
-    for (int slice = 0; slice <= settings.froxels_z; ++slice) {
-        const float w = static_cast<float>(slice) / static_cast<float>(settings.froxels_z);
+    for (int slice = 0; slice <= settings.froxels.z; ++slice) {
+        const float w = static_cast<float>(slice) / static_cast<float>(settings.froxels.z);
         const ImVec2 end = place(1, share_at(curve, w));
         draw.AddLine(ImVec2(end.x - 10, end.y), end, ticks);
     }

@@ -101,7 +101,7 @@ void tooltip(const Setting& s) {
 bool curve_row(const SettingsSet::Group& group, const Setting& s) {
     if (group.table != &volumetrics::settings_table() || !s.key.starts_with("froxel_curve_")) return false;
     auto& settings = *static_cast<volumetrics::Settings*>(group.object);
-    if (s.key.ends_with("_1") && settings.froxel_distribution == volumetrics::DepthDistribution::curve)
+    if (s.key.ends_with("_1") && settings.froxels.distribution == volumetrics::DepthDistribution::curve)
         curve_editor(settings);
     return true;
 }
@@ -147,7 +147,7 @@ void section_rows(const SettingsSet::Group& group, const SettingsSection& sectio
     if (open) {
         rows(group, &section);
         if (section.summary == "temporal")
-            acceptance_row(show_acceptance, settings.temporal != volumetrics::Temporal::off);
+            acceptance_row(show_acceptance, settings.temporal.mode != volumetrics::Temporal::off);
         ImGui::TreePop();
     }
     ImGui::PopID();

@@ -25,9 +25,9 @@ class AcceptanceView : public GlTest {
         fog.sigma_s = glm::vec3(0.02F);
         builder_.scene.media.push_back(fog);
         options_.layer = "acceptance";
-        volumetrics_.settings.temporal = Temporal::acceptance;
-        volumetrics_.settings.temporal_weight = 0.5F;  // no more than the camera's travel leaves
-        volumetrics_.settings.noise = Noise::none;
+        volumetrics_.settings.temporal.mode = Temporal::acceptance;
+        volumetrics_.settings.temporal.weight = 0.5F;  // no more than the camera's travel leaves
+        volumetrics_.settings.noise.kind = Noise::none;
         renderer_.prepare(builder_.finish());
     }
     Image draw() {
@@ -71,7 +71,7 @@ TEST_F(AcceptanceView, RedAtFirstGreenWhileNothingChangesRedBehindWhatMovedAway)
 }
 
 TEST_F(AcceptanceView, BlackWithoutATemporalFilter) {
-    volumetrics_.settings.temporal = Temporal::off;
+    volumetrics_.settings.temporal.mode = Temporal::off;
     EXPECT_EQ(share(draw(), black), 1);
     const Image picture = renderer_.read_display();
     volumetrics_.show_acceptance = true;
@@ -97,9 +97,9 @@ TEST_F(AcceptanceView, TheDisplayShowsTheLayer) {
 }
 
 TEST_F(AcceptanceView, OfALowerResolutionFillsTheFrame) {
-    volumetrics_.settings.temporal_place = TemporalPlace::before;
+    volumetrics_.settings.temporal.place = TemporalPlace::before;
     for (const Resolution resolution : {Resolution::half, Resolution::quarter}) {
-        volumetrics_.settings.resolution = resolution;
+        volumetrics_.settings.resolution.size = resolution;
         EXPECT_EQ(share(draw(), red), 1);
         const Image still = draw();
         EXPECT_EQ(still.size, size_);

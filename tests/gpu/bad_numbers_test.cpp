@@ -105,10 +105,10 @@ class BadNumbers : public GlTest {
             FrameOptions options;
             options.layer = "scattering";
             options.more_layers = {"transmittance"};
-            volumetrics_.settings.froxels_x = volumetrics_.settings.froxels_y = volumetrics_.settings.froxels_z =
+            volumetrics_.settings.froxels.x = volumetrics_.settings.froxels.y = volumetrics_.settings.froxels.z =
                 17;
-            volumetrics_.settings.sun_volume_size = 16;
-            volumetrics_.settings.lamp_volume_size = 8;
+            volumetrics_.settings.light_volumes.sun_size = 16;
+            volumetrics_.settings.light_volumes.lamp_size = 8;
             options.render.cascade_size = options.render.static_shadow_size = 256;
             options.render.atlas_size = 512;
             renderer_.render(scene, view, {17, 9}, options);

@@ -54,7 +54,7 @@ TEST_F(HalfFloat, NoTargetOverflowsAndTheLimitIsReached) {
     FrameOptions options;
     options.more_layers = {"scattering", "transmittance", "emissive"};
     for (const auto filter : {volumetrics::Filter::none, volumetrics::Filter::gaussian15}) {
-        volumetrics_.settings.filter = filter;
+        volumetrics_.settings.filter.kernel = filter;
         draw(options);
         for (const std::string& layer : options.more_layers) expect_finite(renderer_.read_layer(layer), layer);
         expect_finite(gl::read_texture(renderer_.color()), "color");

@@ -154,9 +154,9 @@ TEST_F(Lighting, AnAbsorbingMediumDimsBothLegs) {
     Medium medium;
     medium.sigma_a = glm::vec3(0.2f);
     builder_.scene.media.push_back(medium);
-    volumetrics_.settings.filter = volumetrics::Filter::none;
+    volumetrics_.settings.filter.kernel = volumetrics::Filter::none;
     for (const bool first_leg : {true, false}) {
-        volumetrics_.settings.light_transmittance = first_leg;
+        volumetrics_.settings.light.transmittance = first_leg;
         expect_ground(
             draw(),
             [&](glm::dvec3 p, glm::dvec3 v) {

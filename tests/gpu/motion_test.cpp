@@ -44,7 +44,7 @@ class Motion : public GlTest {
         Medium fog;
         fog.sigma_s = glm::vec3(0.01F);
         builder_.scene.media.push_back(fog);
-        volumetrics_.settings.temporal = Temporal::ema;
+        volumetrics_.settings.temporal.mode = Temporal::ema;
         renderer_.prepare(builder_.finish());
     }
     void draw() {
@@ -181,14 +181,14 @@ TEST_F(Motion, IsThereOnlyWhereSomethingMovesAndItIsRead) {
     EXPECT_TRUE(moved_there({0, -50, 0}));
 
     for (const Temporal kept : {Temporal::ema, Temporal::acceptance, Temporal::accumulate}) {
-        volumetrics_.settings.temporal = kept;
+        volumetrics_.settings.temporal.mode = kept;
         EXPECT_TRUE(moved_there());
     }
     for (const Temporal none : {Temporal::off, Temporal::blend}) {
-        volumetrics_.settings.temporal = none;
+        volumetrics_.settings.temporal.mode = none;
         EXPECT_FALSE(moved_there());
     }
-    volumetrics_.settings.temporal = Temporal::ema;
+    volumetrics_.settings.temporal.mode = Temporal::ema;
     volumetrics_.settings.technique = "analytic_fog";
     EXPECT_FALSE(moved_there()) << "nothing is sampled";
     volumetrics_.settings.technique = "ray_march";

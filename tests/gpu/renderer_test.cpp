@@ -192,7 +192,7 @@ TEST_F(RendererTest, LayersHoldWhatTheirNamesSay) {
     Medium absorbing;
     absorbing.sigma_a = glm::vec3(0.1f);
     builder_.scene.media.push_back(absorbing);
-    volumetrics_.settings.filter = volumetrics::Filter::none;
+    volumetrics_.settings.filter.kernel = volumetrics::Filter::none;
     draw();
     const float distance = glm::length(glm::vec3(p));
     EXPECT_NEAR(renderer_.read_layer().at(ground_x, ground_y)[0], std::exp(-0.1f * distance), 0.003f);
@@ -242,7 +242,7 @@ TEST_F(RendererTest, ACutForgetsHistoryAndKeepsLightVolumes) {
     lamp();
     medium(Medium::Shape::global);
     medium(Medium::Shape::sphere);
-    volumetrics_.settings.temporal = volumetrics::Temporal::acceptance;
+    volumetrics_.settings.temporal.mode = volumetrics::Temporal::acceptance;
     options_.layer = "acceptance";
     const auto light_volumes = {"volumetrics/sun_volume", "volumetrics/lamp_volumes"};
     const auto taken = [&] {  // of earlier frames, anywhere

@@ -19,8 +19,8 @@ namespace {
 class Transparent : public GlTest {
   protected:
     Transparent() {
-        volumetrics_.settings.froxels_x = 16;
-        volumetrics_.settings.froxels_y = 16;
+        volumetrics_.settings.froxels.x = 16;
+        volumetrics_.settings.froxels.y = 16;
         volumetrics_.settings.technique = "froxel";
     }
     /// A Lambert surface, so that nothing but what a test says sends light.
@@ -141,7 +141,7 @@ TEST_F(TransparentFog, IsThatOfAnOpaqueSurfaceAtTheSameDepth) {
 }
 
 TEST_F(TransparentFog, GoesOnBehindTheFroxels) {
-    volumetrics_.settings.froxel_far = 10;
+    volumetrics_.settings.froxels.far = 10;
     const glm::dvec3 opaque = seen(Kind::opaque, 40, glm::vec3(0));
     for (const Kind kind : {Kind::glass, Kind::particle})
         expect_close(seen(kind, 40, glm::vec3(0)), opaque, 0.01, "kind " + std::to_string(int(kind)));

@@ -53,7 +53,7 @@ class CurveEditor : public ::testing::Test {
     [[nodiscard]] float share(int i) const {
         float before = 0, total = 0;
         for (int k = 0; k < 8; ++k) {
-            const float part = settings.*volumetrics::froxel_curve_settings[static_cast<std::size_t>(k)];
+            const float part = settings.froxels.*volumetrics::froxel_curve_settings[static_cast<std::size_t>(k)];
             total += part;
             if (k < i) before += part;
         }
@@ -92,8 +92,8 @@ TEST_F(CurveEditor, NoDragMakesTheCurveFall) {
             const std::array<float, 17> curve = volumetrics::froxel_curve(settings);
             for (std::size_t k = 0; k < 16; ++k) ASSERT_LT(curve[k], curve[k + 1]) << i << ' ' << y;
             for (const auto member : volumetrics::froxel_curve_settings) {
-                EXPECT_GE(settings.*member, 0.001f);
-                EXPECT_LE(settings.*member, 1000);
+                EXPECT_GE(settings.froxels.*member, 0.001f);
+                EXPECT_LE(settings.froxels.*member, 1000);
             }
         }
 }
@@ -104,7 +104,8 @@ TEST_F(CurveEditor, APressBesideThePointsMovesNothing) {
     button(true);
     mouse(ImVec2(point(3).x, point(3).y - 60));
     button(false);
-    for (const auto member : volumetrics::froxel_curve_settings) EXPECT_EQ(settings.*member, before.*member);
+    for (const auto member : volumetrics::froxel_curve_settings)
+        EXPECT_EQ(settings.froxels.*member, before.froxels.*member);
 }
 
 }  // namespace

@@ -24,16 +24,16 @@ bool has_lamp(const StressFrame& frame) {
 
 /// Length of the longest segment of a ray, m: the last one.
 double longest_segment(const volumetrics::Settings& settings, double length) {
-    const double n = settings.steps;
-    if (settings.stepping == volumetrics::Stepping::uniform || n == 1) return length / n;
-    const double growth = settings.stepping_strength / (n - 1);
-    return length * std::expm1(growth) / std::expm1(growth * n) * std::exp(settings.stepping_strength);
+    const double n = settings.march.steps;
+    if (settings.march.stepping == volumetrics::Stepping::uniform || n == 1) return length / n;
+    const double growth = settings.march.stepping_strength / (n - 1);
+    return length * std::expm1(growth) / std::expm1(growth * n) * std::exp(settings.march.stepping_strength);
 }
 
 /// Over the longest segment of a ray that ends `distance` metres away, how often the density of a height medium
 /// grows e-fold.
 double folds(const StressFrame& frame, double direction_y, double distance) {
-    const double length = std::min<double>(distance, frame.options.volumetrics.max_distance);
+    const double length = std::min<double>(distance, frame.options.volumetrics.march.max_distance);
     double most = 0;
     for (const Medium& medium : frame.media)
         if (medium.shape == Medium::Shape::height) most = std::max(most, std::abs(direction_y) / medium.falloff);
@@ -44,12 +44,12 @@ double folds(const StressFrame& frame, double direction_y, double distance) {
 bool scattering_is_comparable(const StressFrame& frame, double folds, double distance) {
     const bool mixture = frame.media.size() > 1;
     if (folds == 0 || (!mixture && !has_lamp(frame))) return true;
-    return folds <= 1 && (!mixture || distance <= frame.options.volumetrics.max_distance);
+    return folds <= 1 && (!mixture || distance <= frame.options.volumetrics.march.max_distance);
 }
 
 /// Relative bound of the scattering layer.
 double relative_bound(const StressFrame& frame, double folds) {
-    const double steps = frame.options.volumetrics.steps;
+    const double steps = frame.options.volumetrics.march.steps;
     double bound = 4e-3;
     if (frame.options.render.ambient > 0) bound += 0.02;
     if (frame.media.size() > 1) bound += 0.1 * folds;
@@ -76,14 +76,15 @@ PixelRay pixel_ray(const View& view, glm::ivec2 size, glm::ivec2 pixel) {
 void compare_with_truth(const StressFrame& frame, const Scene& scene, const Layers& layers, Random& random,
                         Comparison& total, Findings& findings) {
     const auto& chosen = frame.options.volumetrics;
-    const reference::Settings settings{.light_transmittance = chosen.light_transmittance,
-                                       .phase = {.kind = static_cast<reference::ParticlePhase::Kind>(chosen.phase),
-                                                 .back_anisotropy = chosen.phase_back_anisotropy,
-                                                 .back_weight = chosen.phase_back_weight},
-                                       .shadows = false,
-                                       .ambient = frame.options.render.ambient,
-                                       .black_surfaces = true,
-                                       .tolerance = 1e-4};
+    const reference::Settings settings{
+        .light_transmittance = chosen.light.transmittance,
+        .phase = {.kind = static_cast<reference::ParticlePhase::Kind>(chosen.light.phase),
+                  .back_anisotropy = chosen.light.back_anisotropy,
+                  .back_weight = chosen.light.back_weight},
+        .shadows = false,
+        .ambient = frame.options.render.ambient,
+        .black_surfaces = true,
+        .tolerance = 1e-4};
     const reference::Reference truth(scene, settings);
     const double mean = mean_of(layers.scattering);
     ++total.frames;

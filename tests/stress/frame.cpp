@@ -41,7 +41,7 @@ Structure draw_structure(Random& random) {
     if (random.chance(s.comparable ? 1 : 0.7)) s.options.volumetrics.technique = "ray_march";
     if (s.comparable) {
         s.options.render.shadows = false;
-        s.options.volumetrics.filter = volumetrics::Filter::none;
+        s.options.volumetrics.filter.kernel = volumetrics::Filter::none;
     }
     return s;
 }
@@ -76,22 +76,22 @@ void limit_work(StressFrame& frame) {
     volumetrics::Settings& v = frame.options.volumetrics;
     if (v.technique == "reference") {
         frame.size = glm::min(frame.size, glm::ivec2(9));
-        v.reference_steps = std::min(v.reference_steps, 512);
-        v.reference_light_steps = std::min(v.reference_light_steps, 4);
+        v.reference.steps = std::min(v.reference.steps, 512);
+        v.reference.light_steps = std::min(v.reference.light_steps, 4);
     }
     const double pixels = static_cast<double>(frame.size.x) * frame.size.y;
     const double weight = (1 + 2.0 * static_cast<double>(frame.lights.size())) * pixels;
-    v.steps = std::clamp(v.steps, 1, std::max(1, static_cast<int>(work_budget / weight)));
+    v.march.steps = std::clamp(v.march.steps, 1, std::max(1, static_cast<int>(work_budget / weight)));
 }
 
 /// What the closed forms and the ground truth agree about: see compare.h.
 void moderate(StressOptions& options, Random& random) {
-    options.volumetrics.steps = static_cast<int>(random.logarithmic(12, 128));
-    options.volumetrics.max_distance = static_cast<float>(random.logarithmic(120, 2000));
-    options.volumetrics.stepping_strength = std::min(options.volumetrics.stepping_strength, 4.0f);
-    options.volumetrics.lamp_integration = volumetrics::LampIntegration::segment;
-    options.volumetrics.resolution = volumetrics::Resolution::full;
-    options.volumetrics.temporal = volumetrics::Temporal::off;
+    options.volumetrics.march.steps = static_cast<int>(random.logarithmic(12, 128));
+    options.volumetrics.march.max_distance = static_cast<float>(random.logarithmic(120, 2000));
+    options.volumetrics.march.stepping_strength = std::min(options.volumetrics.march.stepping_strength, 4.0f);
+    options.volumetrics.light.lamp_integration = volumetrics::LampIntegration::segment;
+    options.volumetrics.resolution.size = volumetrics::Resolution::full;
+    options.volumetrics.temporal.mode = volumetrics::Temporal::off;
     options.render.cluster_far = std::max(options.render.cluster_far, 100.0f);
 }
 

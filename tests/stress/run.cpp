@@ -50,11 +50,12 @@ Findings Run::check(int number) {
             compare_with_truth(frame, scene, layers, random, totals.truth, findings);
         }
         const volumetrics::Settings& v = frame.options.volumetrics;
-        const bool of_own_ray = v.filter == volumetrics::Filter::none && v.temporal == volumetrics::Temporal::off &&
-                                v.resolution == volumetrics::Resolution::full;
+        const bool of_own_ray = v.filter.kernel == volumetrics::Filter::none &&
+                                v.temporal.mode == volumetrics::Temporal::off &&
+                                v.resolution.size == volumetrics::Resolution::full;
         if (of_own_ray && has_surface(layers.depth) && has_monotonic_transmittance(frame)) {
             const Layers sky = render(frame, World::nothing);
-            totals.depth_pixels += check_monotonic(layers, sky, frame.options.volumetrics.steps, findings);
+            totals.depth_pixels += check_monotonic(layers, sky, frame.options.volumetrics.march.steps, findings);
         }
     } catch (const Error& error) {
         findings.push_back(error.what());

@@ -38,15 +38,15 @@ void draw_settings(const SettingsTable& table, void* object, SettingEffect effec
 
 void limit_resources(StressOptions& options) {
     volumetrics::Settings& v = options.volumetrics;
-    halve_until(v.froxels_x, v.froxels_y, v.froxels_z, 100'000);
-    for (int* side : {&v.froxels_x, &v.froxels_y, &v.froxels_z}) *side |= 1;  // see odd() in frame.cpp
+    halve_until(v.froxels.x, v.froxels.y, v.froxels.z, 100'000);
+    for (int* side : {&v.froxels.x, &v.froxels.y, &v.froxels.z}) *side |= 1;  // see odd() in frame.cpp
     const auto at_most = [](int& value, int most) { value = std::min(value, most); };
-    at_most(v.sun_volume_size, 32);
-    at_most(v.lamp_volume_size, 12);
-    at_most(v.particle_count, 4096);
-    at_most(v.particle_local_count, 4096);
-    at_most(v.billboard_layers, 32);
-    at_most(v.shaft_grid, 96);
+    at_most(v.light_volumes.sun_size, 32);
+    at_most(v.light_volumes.lamp_size, 12);
+    at_most(v.particles.count, 4096);
+    at_most(v.particles.local_count, 4096);
+    at_most(v.billboards.layers, 32);
+    at_most(v.shaft_geometry.grid, 96);
     RenderSettings& r = options.render;
     halve_until(r.cluster_x, r.cluster_y, r.cluster_z, 20'000);
 }

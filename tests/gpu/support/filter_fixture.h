@@ -73,8 +73,8 @@ class VolumetricsFilter : public GlTest {
         host.vertical_fov = 1e-4F;  // all rays alike
         host.ambient = glm::vec3(1);
         host.global = {{.sigma_s = glm::vec3(0.05F), .sigma_a = glm::vec3(0.05F)}};
-        settings.filter_sigma = gaussian15_sigma;
-        settings.reconstruct = volumetrics::Reconstruct::light;
+        settings.filter.sigma = gaussian15_sigma;
+        settings.filter.reconstruct = volumetrics::Reconstruct::light;
     }
     StubHost host;
     Settings settings = plain_settings(1);
@@ -85,13 +85,13 @@ class VolumetricsFilter : public GlTest {
         host.has_sun = true;
         host.sun_illuminance = glm::vec3(1000);
         host.shadows = 1;
-        settings.steps = 2;
-        settings.noise = volumetrics::Noise::bayer;
+        settings.march.steps = 2;
+        settings.noise.kind = volumetrics::Noise::bayer;
     }
 
     Frame render(Filter filter, FilterDepth depth = FilterDepth::none) {
-        settings.filter = filter;
-        settings.filter_depth = depth;
+        settings.filter.kernel = filter;
+        settings.filter.depth = depth;
         return host.render(settings);
     }
     /// To half a step of half floats.

@@ -25,11 +25,11 @@ inline double largest_difference(const Image& a, const Image& b) {
 
 /// What a person can choose to happen to samples: noise, filter, history and a quarter of the resolution.
 inline void reconstruct_all(Settings& s) {
-    s.noise = volumetrics::Noise::white;
-    s.noise_time = volumetrics::NoiseTime::own;
-    s.filter = volumetrics::Filter::gaussian15;
-    s.temporal = volumetrics::Temporal::accumulate;
-    s.resolution = volumetrics::Resolution::quarter;
+    s.noise.kind = volumetrics::Noise::white;
+    s.noise.time = volumetrics::NoiseTime::own;
+    s.filter.kernel = volumetrics::Filter::gaussian15;
+    s.temporal.mode = volumetrics::Temporal::accumulate;
+    s.resolution.size = volumetrics::Resolution::quarter;
 }
 
 }  // namespace tyndall::test

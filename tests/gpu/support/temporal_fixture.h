@@ -39,25 +39,25 @@ class VolumetricsTemporal : public GlTest {
     /// Neither clips nor rejects.
     static Settings settings(Temporal temporal, float weight = 0.1F) {
         Settings s = plain_settings(4);
-        s.temporal = temporal;
-        s.temporal_place = TemporalPlace::after;
-        s.temporal_weight = weight;
-        s.temporal_scale = 4;
-        s.temporal_clip = false;
-        s.temporal_reject = false;
+        s.temporal.mode = temporal;
+        s.temporal.place = TemporalPlace::after;
+        s.temporal.weight = weight;
+        s.temporal.scale = 4;
+        s.temporal.clip = false;
+        s.temporal.reject = false;
         return s;
     }
     /// White noise of few steps, other in each frame; the rest as it comes.
     static Settings noisy(Temporal temporal) {
         Settings s = plain_settings(4);
-        s.temporal = temporal;
-        s.temporal_place = TemporalPlace::after;
-        s.noise = volumetrics::Noise::white;
-        s.noise_time = volumetrics::NoiseTime::own;
+        s.temporal.mode = temporal;
+        s.temporal.place = TemporalPlace::after;
+        s.noise.kind = volumetrics::Noise::white;
+        s.noise.time = volumetrics::NoiseTime::own;
         return s;
     }
     static Settings without(Settings s) {
-        s.temporal = Temporal::off;
+        s.temporal.mode = Temporal::off;
         return s;
     }
 

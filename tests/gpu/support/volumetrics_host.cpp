@@ -215,10 +215,10 @@ Frame StubHost::render(const Settings& settings) {
 
 Settings plain_settings(int steps) {
     Settings settings;
-    settings.steps = steps;
-    settings.noise = volumetrics::Noise::none;
-    settings.filter = volumetrics::Filter::none;
-    settings.temporal = volumetrics::Temporal::off;
+    settings.march.steps = steps;
+    settings.noise.kind = volumetrics::Noise::none;
+    settings.filter.kernel = volumetrics::Filter::none;
+    settings.temporal.mode = volumetrics::Temporal::off;
     return settings;
 }
 

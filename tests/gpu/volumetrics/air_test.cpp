@@ -32,8 +32,8 @@ class VolumetricsAir : public GlTest, public testing::WithParamInterface<std::st
     [[nodiscard]] static Settings exact_settings(int steps = 8) {
         Settings settings = plain_settings(steps);
         settings.technique = GetParam();
-        settings.froxels_x = 9;  // odd: the middle of the picture lies on a column
-        settings.froxels_y = 45;
+        settings.froxels.x = 9;  // odd: the middle of the picture lies on a column
+        settings.froxels.y = 45;
         return settings;
     }
     void expect_close(glm::dvec3 value, glm::dvec3 expected, double tolerance, const std::string& what) const {
@@ -90,8 +90,8 @@ TEST_P(VolumetricsAir, ClearAirOverFiftyKilometres) {
     host.view_depth = [](int, int) { return 5e4F; };
     host.global = {{.sigma_s = clear_air, .rayleigh = true, .height = true, .falloff = 8000}};
     Settings settings = exact_settings();
-    settings.froxel_far = 4096;
-    settings.max_distance = 1e5F;
+    settings.froxels.far = 4096;
+    settings.march.max_distance = 1e5F;
     glm::dvec3 level[2];
     for (const double elevation : {0.9, 0.1}) {
         host.sun_direction = {0, -std::sin(elevation), std::cos(elevation)};
@@ -143,8 +143,8 @@ TEST_P(VolumetricsAir, LampInAirAndHaze) {
     const glm::dvec3 expected(channel(0), channel(1), channel(2));
     expect_close(radiance(exact_settings(16)), expected, 4e-3, "segment");
     Settings settings = exact_settings(400);
-    settings.lamp_integration = volumetrics::LampIntegration::center;
-    settings.froxels_z = 256;
+    settings.light.lamp_integration = volumetrics::LampIntegration::center;
+    settings.froxels.z = 256;
     if (GetParam() != "reference") expect_close(radiance(settings), expected, 0.01, "center");
 }
 
@@ -159,7 +159,7 @@ TEST_P(VolumetricsAir, LocalMediumInAirAndHaze) {
     host.local = {
         {.shape = Shape::box, .half_extent = glm::vec3(50), .sigma_s = glm::vec3(0.03125F), .anisotropy = -0.4F}};
     Settings settings = exact_settings();
-    settings.light_transmittance = false;
+    settings.light.transmittance = false;
     const double c = host.sun_direction.z, particles = 0.01 + 0.03125, g = (0.01 * 0.6 - 0.03125 * 0.4) / particles;
     const glm::dvec3 sigma = air + particles;
     const glm::dvec3 expected =
@@ -176,11 +176,11 @@ TEST_P(VolumetricsAir, PhaseFunctionsOfParticles) {
             host.sun_direction = glm::normalize(direction);
             const double c = host.sun_direction.z;
             Settings settings = exact_settings(1);
-            settings.phase = PhaseFunction::cornette_shanks;
+            settings.light.phase = PhaseFunction::cornette_shanks;
             expect_close(radiance(settings), glm::dvec3(10 * phase_cornette_shanks(g, c)), 1e-3, "Cornette-Shanks");
-            settings.phase = PhaseFunction::double_henyey_greenstein;
-            settings.phase_back_anisotropy = -0.3F;
-            settings.phase_back_weight = 0.25F;
+            settings.light.phase = PhaseFunction::double_henyey_greenstein;
+            settings.light.back_anisotropy = -0.3F;
+            settings.light.back_weight = 0.25F;
             expect_close(radiance(settings), glm::dvec3(7.5 * phase_hg(g, c) + 2.5 * phase_hg(-0.3, c)), 1e-3,
                          "two lobes");
         }

@@ -24,7 +24,7 @@ class AnalyticFog : public GlTest {
     [[nodiscard]] static Settings settings(FogMode mode = FogMode::height) {
         Settings settings = plain_settings(1);
         settings.technique = "analytic_fog";
-        settings.fog_mode = mode;
+        settings.analytic_fog.mode = mode;
         return settings;
     }
     StubHost host;

@@ -21,7 +21,7 @@ class VolumetricsBillboards : public GlTest {
     Settings s = without_fade();
     static Settings without_fade() {
         Settings settings = plain_settings(1);
-        settings.billboard_fade = 0;
+        settings.billboards.fade = 0;
         return settings;
     }
     /// A row of pixels that look in one direction, at depths from 0.2 m to 180 m.
@@ -39,7 +39,7 @@ TEST_F(VolumetricsBillboards, TransmittanceIsBeerLambertAtEveryDepth) {
                    {.sigma_s = glm::vec3(0.02F), .height = true, .base = 1, .falloff = 3}};
     const double height = 0.02 * std::exp(1.0 / 3);  // a level ray at y = 0
     for (const int layers : {1, 7, 64}) {
-        s.billboard_layers = layers;
+        s.billboards.layers = layers;
         const Frame frame = host.render(s);
         for (int x = 0; x < 64; ++x)
             for (int c = 0; c < 3; ++c) {
@@ -58,7 +58,7 @@ TEST_F(VolumetricsBillboards, SunIsTheClosedFormInAHomogeneousMedium) {
     host.global = {{.sigma_s = glm::vec3(0.02F), .sigma_a = glm::vec3(0.01F), .anisotropy = 0.5F}};
     const double source = 1000 * phase_hg(0.5, host.sun_direction.z) * 0.02 / 0.03;
     for (const int layers : {1, 16}) {
-        s.billboard_layers = layers;
+        s.billboards.layers = layers;
         const Frame frame = host.render(s);
         for (int x = 0; x < 64; ++x) {
             const double expected = source * -std::expm1(-0.03 * depth(x));
@@ -87,7 +87,7 @@ TEST_F(VolumetricsBillboards, WhereTheSunIsAttenuatedMoreLayersAreBetter) {
     }
     expected *= phase_hg(0, 0);
     const auto error = [&](int layers) {
-        s.billboard_layers = layers;
+        s.billboards.layers = layers;
         return std::abs(host.render(s).scattering.at(0, 0)[0] / expected - 1);
     };
     EXPECT_GT(error(4), 4 * error(16));
@@ -106,7 +106,7 @@ TEST_F(VolumetricsBillboards, LampsConvergeWithTheLayers) {
         expected += 0.02 * phase_hg(0, 0) * 100 / d2 * std::exp(-0.02 * (t + std::sqrt(d2))) * 40 / samples;
     }
     const auto error = [&](int layers) {
-        s.billboard_layers = layers;
+        s.billboards.layers = layers;
         return std::abs(host.render(s).scattering.at(0, 0)[0] / expected - 1);
     };
     EXPECT_GT(error(8), 0.02);  // a lamp between the sheets: the technique's failure
@@ -116,8 +116,8 @@ TEST_F(VolumetricsBillboards, LampsConvergeWithTheLayers) {
 /// Mean of 55 frames whose offsets leave no gap over 1.18 / 55.
 Image mean_over_frames(StubHost& host, Settings s, bool transmittance = false) {
     constexpr int frames = 55;
-    s.noise = volumetrics::Noise::bayer;
-    s.noise_time = volumetrics::NoiseTime::golden_ratio;
+    s.noise.kind = volumetrics::Noise::bayer;
+    s.noise.time = volumetrics::NoiseTime::golden_ratio;
     Image mean;
     for (int frame = 0; frame < frames; ++frame) {
         host.frame_index = static_cast<std::uint32_t>(frame);
@@ -139,8 +139,8 @@ TEST_F(VolumetricsBillboards, MeanOverFramesIsTheLitShareOfEachSheet) {
     host.sun_direction = glm::normalize(glm::vec3(-0.5F, -1, 0));
     host.shadows = 3;
     host.global = {{.sigma_s = glm::vec3(0.001F)}};
-    s.billboard_layers = 4;
-    s.max_distance = 40;
+    s.billboards.layers = 4;
+    s.march.max_distance = 40;
     // At y = 0 the light of x = -2 on passes the edge.
     const auto lit = [&](int x) {
         const glm::vec3 ray = host.ray(x, 0);
@@ -156,7 +156,7 @@ TEST_F(VolumetricsBillboards, MeanOverFramesIsTheLitShareOfEachSheet) {
         ASSERT_NEAR(mean.at(x, 0)[0], expected, 0.02 * whole) << x;
     }
     EXPECT_GT(bias, 0.15 * whole) << "the middle stands for 24 m";
-    s.noise = volumetrics::Noise::white;
+    s.noise.kind = volumetrics::Noise::white;
     EXPECT_EQ(host.render(s).transmittance.pixels, fixed.transmittance.pixels)
         << "what is not sampled has no noise";
 }
@@ -166,7 +166,7 @@ TEST_F(VolumetricsBillboards, MeanOverFramesIsTheGlowOfALampAndTheDensityOfASoft
     host.view_depth = [](int, int) { return 40.0F; };
     host.global = {{.sigma_s = glm::vec3(0.002F)}};
     host.lights = {point_light({2, 0, -12}, 100)};
-    s.billboard_layers = 8;
+    s.billboards.layers = 8;
     double expected = 0;
     constexpr int samples = 40000;
     for (int i = 0; i < samples; ++i) {
@@ -181,7 +181,7 @@ TEST_F(VolumetricsBillboards, MeanOverFramesIsTheGlowOfALampAndTheDensityOfASoft
     host.global.clear();
     host.lights.clear();
     host.local = {{.center = {0, 0, -20}, .half_extent = {5, 5, 5}, .softness = 3, .sigma_a = glm::vec3(0.01F)}};
-    s.billboard_local_layers = 1;
+    s.billboards.local_layers = 1;
     const double depth = 0.01 * (4 + 3);
     EXPECT_NEAR(host.render(s).transmittance.at(0, 0)[0], std::exp(-0.1), 2e-3);
     EXPECT_NEAR(mean_over_frames(host, s, true).at(0, 0)[0], std::exp(-depth), 2e-3);
@@ -199,10 +199,10 @@ TEST_F(VolumetricsBillboards, LowerResolutionIsTheSameWhereLightIsSmooth) {
     host.lights = {point_light({3, 4, -9}, 10)};
     for (const glm::ivec2 size : low_resolution_sizes) {
         host.size = size;
-        s.resolution = volumetrics::Resolution::full;
+        s.resolution.size = volumetrics::Resolution::full;
         const Frame full = host.render(s);
         for (const auto resolution : {volumetrics::Resolution::half, volumetrics::Resolution::quarter}) {
-            s.resolution = resolution;
+            s.resolution.size = resolution;
             const Frame low = host.render(s);
             const double tolerance = resolution == volumetrics::Resolution::half ? 0.02 : 0.05;
             EXPECT_LT(largest_difference(low.scattering, full.scattering), tolerance) << size.x << " px";
@@ -213,9 +213,9 @@ TEST_F(VolumetricsBillboards, LowerResolutionIsTheSameWhereLightIsSmooth) {
 
 TEST_F(VolumetricsBillboards, FadeTakesHalfItsLengthOfMedium) {
     row_of_depths();
-    s.billboard_fade = 4;
-    s.billboard_layers = 256;
-    s.max_distance = 32;
+    s.billboards.fade = 4;
+    s.billboards.layers = 256;
+    s.march.max_distance = 32;
     host.global = {{.sigma_s = glm::vec3(0.05F)}};
     host.ambient = glm::vec3(1);
     const Frame frame = host.render(s);
@@ -234,7 +234,7 @@ TEST_F(VolumetricsBillboards, LocalMediaAreTheChordInTheirShape) {
     host.ambient = glm::vec3(3);
     const auto chord = [](double d, double from, double to) { return std::clamp(d, from, to) - from; };
     for (const int layers : {1, 8}) {
-        s.billboard_local_layers = layers;
+        s.billboards.local_layers = layers;
         const Frame frame = host.render(s);
         for (int x = 0; x < 64; ++x) {
             const double box = 0.08 * chord(depth(x), 12, 28), ball = 0.05 * chord(depth(x), 44, 56);
@@ -320,7 +320,7 @@ TEST_F(VolumetricsBillboards, FiniteAtTheExtremes) {
     host.sun_illuminance = glm::vec3(1e8F);
     host.ambient = glm::vec3(1e8F);
     host.lights = {point_light({0, 0, 0}, 1e8F, 100, 0)};
-    s.billboard_fade = 0.5F;
+    s.billboards.fade = 0.5F;
     for (const float sigma : {1e-6F, 1e4F})
         for (const float y : {0.0F, -1e6F}) {
             if (sigma == 1e4F) reconstruct_all(s);
@@ -342,7 +342,7 @@ TEST_F(VolumetricsBillboards, PassesAndWork) {
     host.view_depth = [](int, int) { return sky; };
     host.has_sun = true;
     host.global = {{.sigma_s = glm::vec3(0.1F)}};
-    s.billboard_layers = 12;
+    s.billboards.layers = 12;
     const Frame frame = host.render(s);
     EXPECT_THAT(frame.live_passes, ElementsAre("volumetrics/billboards", "volumetrics/billboards_resolve"));
     EXPECT_EQ(frame.work.at("volumetrics/billboards")[int(gl::Work::shadow_lookups)], 64U * 12);
@@ -351,9 +351,9 @@ TEST_F(VolumetricsBillboards, PassesAndWork) {
     host.view_depth = [](int, int) { return 0.2F; };
     EXPECT_EQ(host.render(s).work.at("volumetrics/billboards")[int(gl::Work::shadow_lookups)], 64U);
     // A quarter of the pixels; sheets behind the wall are found empty.
-    s.resolution = volumetrics::Resolution::half;
-    s.filter = volumetrics::Filter::gaussian1;
-    s.temporal = volumetrics::Temporal::accumulate;
+    s.resolution.size = volumetrics::Resolution::half;
+    s.filter.kernel = volumetrics::Filter::gaussian1;
+    s.temporal.mode = volumetrics::Temporal::accumulate;
     const Frame half = host.render(s);
     EXPECT_EQ(half.work.at("volumetrics/billboards")[int(gl::Work::shadow_lookups)], 16U);
     EXPECT_THAT(half.live_passes, ElementsAre("volumetrics/depth_downsample", "volumetrics/billboards",

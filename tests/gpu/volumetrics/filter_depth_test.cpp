@@ -10,7 +10,7 @@ const std::vector<FilterDepth> by_depth{FilterDepth::relative, FilterDepth::plan
 TEST_F(VolumetricsFilter, DepthStepsAndTheSkyAreKept) {
     host.size = {48, 48};
     host.view_depth = [](int x, int y) { return y < 24 ? (x < 24 ? 5.0F : 20.0F) : (x < 24 ? 20.0F : sky); };
-    settings.filter_sigma = 3;
+    settings.filter.sigma = 3;
     for (const glm::vec3 sigma_a : {glm::vec3(0.05F), glm::vec3(0.01F, 0.2F, 0.8F)}) {
         host.global[0].sigma_a = sigma_a;
         const Frame sharp = render(Filter::none);
@@ -25,7 +25,7 @@ TEST_F(VolumetricsFilter, ASlopedSurfaceIsFilteredAndItsNoiseAway) {
     // Steps of 4% in depth from pixel to pixel are one surface; dithered shadows on it are smoothed.
     host.view_depth = [](int x, int) { return 10.0F * std::pow(1.04F, static_cast<float>(x)); };
     dither_shadows();
-    settings.filter_sigma = 2;
+    settings.filter.sigma = 2;
     const auto roughness = [&](Filter filter, FilterDepth depth) {
         const Frame frame = render(filter, depth);
         double sum = 0;
@@ -127,10 +127,10 @@ TEST_F(VolumetricsFilter, AThinPoleIsNotSmearedAndTheWallBehindItIsOne) {
 
 TEST_F(VolumetricsFilter, PlanesOfAlternatingDepthAreFilteredAndTheirEdgesKept) {
     dither_shadows();
-    settings.upsample = volumetrics::Upsample::nearest;
-    settings.resolution_depth = volumetrics::DepthChoice::checkerboard;
+    settings.resolution.upsample = volumetrics::Upsample::nearest;
+    settings.resolution.depth = volumetrics::DepthChoice::checkerboard;
     for (const auto resolution : {volumetrics::Resolution::half, volumetrics::Resolution::quarter}) {
-        settings.resolution = resolution;
+        settings.resolution.size = resolution;
         host.size = {96, 64};
         for (const auto& plane : planes) {
             host.view_depth = plane;
@@ -155,7 +155,7 @@ TEST_F(VolumetricsFilter, AnyDepthGivesFiniteValuesInRange) {
                     const float r = static_cast<float>(seed >> 8) / 16777216.0F;
                     return r < 0.2F ? sky : 0.1F * std::pow(1e9F, r);
                 };
-                settings.filter_depth_falloff = falloff;
+                settings.filter.depth_falloff = falloff;
                 const Frame frame = render(kernel.filter, depth);
                 for (const float v : frame.scattering.pixels) ASSERT_TRUE(v >= 0 && v < 65504) << v;
                 for (const float v : frame.transmittance.pixels) ASSERT_TRUE(v >= 0 && v <= 1) << v;

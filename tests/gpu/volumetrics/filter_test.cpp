@@ -55,7 +55,7 @@ TEST_F(VolumetricsFilter, AStepIsSpreadByTheSumOfTaps) {
 
 TEST_F(VolumetricsFilter, WideGaussianIsAnErrorFunction) {
     host.view_depth = [](int x, int) { return x < 24 ? 5.0F : 20.0F; };
-    settings.filter_sigma = 2;
+    settings.filter.sigma = 2;
     const Frame sharp = render(Filter::none), frame = render(Filter::gaussian15);
     const double left = sharp.scattering.at(0, 16)[0], right = sharp.scattering.at(47, 16)[0];
     for (int x = 14; x < 34; ++x) {
@@ -106,11 +106,11 @@ Taps narrowed(Taps taps, int n) {
 TEST_F(VolumetricsFilter, NarrowsByTheFramesOfThePixelsMean) {
     host.view_depth = [](int x, int y) { return x == 24 && y == 15 ? 300.0F : 0.2F; };
     for (const Published& kernel : kernels) {
-        settings.temporal = volumetrics::Temporal::off;
+        settings.temporal.mode = volumetrics::Temporal::off;
         const Frame sharp = render(Filter::none), plain = render(kernel.filter);
         const double low = sharp.scattering.at(0, 0)[0], height = sharp.scattering.at(24, 16)[0] - low;
-        settings.temporal = volumetrics::Temporal::accumulate;
-        settings.temporal_place = volumetrics::TemporalPlace::before;
+        settings.temporal.mode = volumetrics::Temporal::accumulate;
+        settings.temporal.place = volumetrics::TemporalPlace::before;
         for (int n = 1; n <= 32; ++n) {
             const Frame frame = render(kernel.filter);
             if (n == 1) {
@@ -130,16 +130,16 @@ TEST_F(VolumetricsFilter, NarrowsByTheFramesOfThePixelsMean) {
 }
 
 TEST_F(VolumetricsFilter, KeepsItsWidthWhereNothingCountsFramesOrItMayNot) {
-    settings.filter_sigma = 3;
+    settings.filter.sigma = 3;
     host.view_depth = [](int x, int) { return x < 24 ? 5.0F : 20.0F; };
     using volumetrics::Temporal;
     using volumetrics::TemporalPlace;
     const auto still = [&](Temporal temporal, TemporalPlace place, bool narrows) {
-        settings.temporal = Temporal::off;
+        settings.temporal.mode = Temporal::off;
         (void)render(Filter::none);
-        settings.temporal = temporal;
-        settings.temporal_place = place;
-        settings.filter_narrows = narrows;
+        settings.temporal.mode = temporal;
+        settings.temporal.place = place;
+        settings.filter.narrows = narrows;
         (void)render(Filter::gaussian15);
         (void)render(Filter::gaussian15);
         return render(Filter::gaussian15).scattering;
@@ -153,8 +153,8 @@ TEST_F(VolumetricsFilter, KeepsItsWidthWhereNothingCountsFramesOrItMayNot) {
 
 TEST_F(VolumetricsFilter, NarrowKernelsKeepConstantsAndFetchLess) {
     host.count_work = true;
-    settings.temporal = volumetrics::Temporal::accumulate;
-    settings.temporal_place = volumetrics::TemporalPlace::before;
+    settings.temporal.mode = volumetrics::Temporal::accumulate;
+    settings.temporal.place = volumetrics::TemporalPlace::before;
     for (const glm::vec3 sigma_a : {glm::vec3(0.05F), glm::vec3(0.01F, 0.2F, 0.8F)}) {
         host.global[0].sigma_a = sigma_a;
         const Frame first = render(Filter::gaussian15);
@@ -165,9 +165,9 @@ TEST_F(VolumetricsFilter, NarrowKernelsKeepConstantsAndFetchLess) {
         for (const char* pass : {"volumetrics/filter_horizontal", "volumetrics/filter_vertical"})
             EXPECT_LT(frame.work.at(pass)[int(gl::Work::texture_fetches)],
                       first.work.at(pass)[int(gl::Work::texture_fetches)]);
-        settings.temporal = volumetrics::Temporal::off;  // ends the history
+        settings.temporal.mode = volumetrics::Temporal::off;  // ends the history
         (void)render(Filter::none);
-        settings.temporal = volumetrics::Temporal::accumulate;
+        settings.temporal.mode = volumetrics::Temporal::accumulate;
     }
 }
 

@@ -28,11 +28,11 @@ class VolumetricsFroxelHistory : public GlTest {
     static Settings settings(int history) {
         Settings s = plain_settings(1);
         s.technique = "froxel";
-        s.froxels_x = 16;
-        s.froxels_y = 9;
-        s.froxels_z = 24;
-        s.froxel_far = 40;
-        s.froxel_history = history;
+        s.froxels.x = 16;
+        s.froxels.y = 9;
+        s.froxels.z = 24;
+        s.froxels.far = 40;
+        s.froxels.history = history;
         return s;
     }
 
@@ -123,8 +123,8 @@ TEST_F(VolumetricsFroxelHistory, FirstFrameSamplesTheMiddle) {
 TEST_F(VolumetricsFroxelHistory, SettlesNearerToTheTruth) {
     host.size = {32, 18};
     Settings s = settings(32);
-    s.froxels_x = 32;
-    s.froxels_y = 18;
+    s.froxels.x = 32;
+    s.froxels.y = 18;
     add_sun_behind_fence();
     const Image sun = truth();
     const double sun_once = relative_rmse(after(1, s), sun);
@@ -205,14 +205,14 @@ TEST_F(VolumetricsFroxelHistory, NothingStaleAfterAChangeOfTheGrid) {
     add_lamps(true);
     Settings other = settings(32);
     std::vector<Settings> changes;
-    other.froxels_z = 16;
+    other.froxels.z = 16;
     changes.push_back(other);
     other = settings(32);
-    other.froxels_x = 12;
+    other.froxels.x = 12;
     changes.push_back(other);
     for (const Settings& change : changes) {
         Settings once = change;
-        once.froxel_history = 0;
+        once.froxels.history = 0;
         const Image expected = after(1, once);
         after(3, settings(32));
         EXPECT_LE(relative_rmse(after(1, change), expected), 1e-3);
@@ -228,10 +228,10 @@ TEST_F(VolumetricsFroxelHistory, NothingStaleAfterAChangeOfTheGrid) {
 TEST_F(VolumetricsFroxelHistory, TwoSamplesOfTwentySevenAreAChange) {
     Settings s = settings(256);
     const glm::ivec3 size{40, 36, 36};
-    s.froxels_x = size.x;
-    s.froxels_y = size.y;
-    s.froxels_z = size.z;
-    s.froxel_distribution = volumetrics::DepthDistribution::linear;
+    s.froxels.x = size.x;
+    s.froxels.y = size.y;
+    s.froxels.z = size.z;
+    s.froxels.distribution = volumetrics::DepthDistribution::linear;
     host.size = {40, 36};
     host.view_depth = [&](int x, int) { return x < 20 ? 9.5F : 38.0F; };
     host.has_sun = true;

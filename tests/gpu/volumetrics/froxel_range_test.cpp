@@ -25,8 +25,8 @@ class VolumetricsFroxelRange : public GlTest {
         host.view_depth = [this](int x, int) { return depth(x); };
         settings = plain_settings(1);
         settings.technique = "froxel";
-        settings.froxels_x = 256;
-        settings.froxels_y = 8;
+        settings.froxels.x = 256;
+        settings.froxels.y = 8;
     }
     StubHost host;
     volumetrics::Settings settings;
@@ -44,8 +44,8 @@ TEST_F(VolumetricsFroxelRange, EveryDepthHasTheLightOfItsLength) {
     host.global = {{.sigma_s = glm::vec3(0.02F), .sigma_a = glm::vec3(0.01F), .anisotropy = 0.3F}};
     for (const auto distribution : distributions)
         for (const int slices : {8, 40}) {
-            settings.froxels_z = slices;
-            settings.froxel_distribution = distribution;
+            settings.froxels.z = slices;
+            settings.froxels.distribution = distribution;
             const Frame frame = host.render(settings);
             for (int x = 0; x < 256; ++x) {
                 const double expected = (1000 * phase_hg(0.3, 1) + 5) * 2 / 3 * -std::expm1(-0.03 * depth(x));
@@ -67,8 +67,8 @@ TEST_F(VolumetricsFroxelRange, TheFarEndIsNoSeam) {
         const double source = 1000 / (4 * std::numbers::pi) * std::exp(-to_sun) * 0.5;
         for (const auto distribution : distributions)
             for (const float far : {20.0F, 60.0F}) {
-                settings.froxel_distribution = distribution;
-                settings.froxel_far = far;
+                settings.froxels.distribution = distribution;
+                settings.froxels.far = far;
                 const Frame frame = host.render(settings);
                 for (int x = 0; x < 256; ++x) {
                     const double expected = source * -std::expm1(-0.02 * depth(x));
@@ -86,7 +86,7 @@ TEST_F(VolumetricsFroxelRange, TheNearPlaneChangesNothing) {
     host.ambient = glm::vec3(1);
     host.lights = {point_light({0.5F, 0, -3}, 100), point_light({3, 0, -20}, 1000)};
     for (const auto distribution : distributions) {
-        settings.froxel_distribution = distribution;
+        settings.froxels.distribution = distribution;
         host.znear = 0.01F;
         const Frame close = host.render(settings);
         host.znear = 1;
@@ -106,9 +106,9 @@ TEST_F(VolumetricsFroxelRange, AutoSlicesABoxOfFog) {
         {.shape = Shape::box, .center = {0, 0, -25}, .half_extent = {5, 5, 5}, .sigma_s = glm::vec3(0.1F)}};
     first = 10;
     growth = 1.01F;  // to 126 m
-    settings.froxel_distribution = DepthDistribution::automatic;
+    settings.froxels.distribution = DepthDistribution::automatic;
     for (const int slices : {16, 64, 128}) {
-        settings.froxels_z = slices;
+        settings.froxels.z = slices;
         const Frame frame = host.render(settings);
         const double slice = 12.0 / slices;  // m, or less
         for (int x = 0; x < 256; ++x) {

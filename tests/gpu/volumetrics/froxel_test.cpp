@@ -25,8 +25,8 @@ class VolumetricsFroxel : public GlTest {
     static Settings settings(int columns_x, int columns_y) {
         Settings settings = plain_settings(1);
         settings.technique = "froxel";
-        settings.froxels_x = columns_x;
-        settings.froxels_y = columns_y;
+        settings.froxels.x = columns_x;
+        settings.froxels.y = columns_y;
         return settings;
     }
 
@@ -86,8 +86,8 @@ TEST_F(VolumetricsFroxelDepths, EverySurfaceDepthHasTheLightOfItsLength) {
         host.global = {{.sigma_s = glm::vec3(0.02F), .sigma_a = sigma_a, .anisotropy = 0.3F}};
         for (const auto distribution : distributions) {
             Settings s = settings(256, 8);
-            s.froxels_z = 32;
-            s.froxel_distribution = distribution;
+            s.froxels.z = 32;
+            s.froxels.distribution = distribution;
             const Frame frame = host.render(s);
             for (int x = 0; x < 256; ++x)
                 for (int c = 0; c < 3; ++c) {
@@ -111,7 +111,7 @@ TEST_F(VolumetricsFroxelDepths, TheEndOfTheVolumeIsNoSeam) {
         const double thickness_to_sun = height ? 0.02 * 8 / -host.sun_direction.y : 0;
         for (const float far : {20.0F, 60.0F}) {
             Settings s = settings(256, 8);
-            s.froxel_far = far;
+            s.froxels.far = far;
             const Frame frame = host.render(s);
             for (int x = 0; x < 256; ++x) {
                 const double expected = 1000 / (4 * std::numbers::pi) * std::exp(-thickness_to_sun) * 0.5 *
@@ -129,7 +129,7 @@ TEST_F(VolumetricsFroxelDepths, TheNearPlaneChangesNothing) {
     host.lights = {point_light({0.5F, 0, -3}, 100), point_light({3, 0, -20}, 1000)};
     for (const auto distribution : distributions) {
         Settings s = settings(256, 8);
-        s.froxel_distribution = distribution;
+        s.froxels.distribution = distribution;
         host.znear = 0.01F;
         const Frame close = host.render(s);
         host.znear = 1;
@@ -151,10 +151,10 @@ TEST_F(VolumetricsFroxel, LampsAgreeWithQuadratureOverThePicture) {
     for (const float distance : {0.1F, 0.3F, 1.0F, 3.0F, 10.0F, 20.0F})
         for (const float z : {-2.0F, -9.4F, -24.0F}) {
             host.lights = {point_light({distance, 0.03F, z}, 10000)};
-            s.lamp_integration = LampIntegration::segment;
+            s.light.lamp_integration = LampIntegration::segment;
             EXPECT_LE(lamp_error(s, 40), 0.02) << distance << " m from the axis at " << z;
             if (distance < 10) continue;
-            s.lamp_integration = LampIntegration::center;
+            s.light.lamp_integration = LampIntegration::center;
             worst_center = std::max(worst_center, lamp_error(s, 40));
         }
     EXPECT_GE(worst_center, 0.1);  // one sample in the middle of each slice
@@ -222,9 +222,9 @@ TEST_F(VolumetricsFroxel, OnlyWhatIsSeenIsLit) {
     host.slices = 20;
     host.slice_depth = 5;
     Settings s = settings(16, 8);
-    s.froxels_z = 40;
-    s.froxel_far = 80;
-    s.froxel_distribution = DepthDistribution::linear;
+    s.froxels.z = 40;
+    s.froxels.far = 80;
+    s.froxels.distribution = DepthDistribution::linear;
     const auto work = [&](float view_depth) {
         host.view_depth = [=](int, int) { return view_depth; };
         return host.render(s).work.at("volumetrics/froxel_light");
@@ -240,7 +240,7 @@ TEST_F(VolumetricsFroxel, OnlyWhatIsSeenIsLit) {
     host.lights[0] = point_light({0, 0, -30}, 10, 4.9F);  // 25.1 to 34.9 m: 5 or 6 slices of 2 m
     host.listed = [](int light, int slice) { return light == 0 && slice >= 5 && slice < 7; };
     for (const auto integration : {LampIntegration::center, LampIntegration::segment}) {
-        s.lamp_integration = integration;
+        s.light.lamp_integration = integration;
         const auto evaluations = work(60)[int(gl::Work::light_evaluations)];
         EXPECT_GT(evaluations, 0U);
         EXPECT_LE(evaluations, columns * 7);

@@ -61,7 +61,7 @@ class HostTechnique : public GlTest {
 };
 
 TEST_F(HostTechnique, IsReconstructedAsAllOthersAreAndTellsLitFromDark) {
-    settings.resolution = Resolution::half;
+    settings.resolution.size = Resolution::half;
     for (const float x : {1000.0F, -1000.0F}) {
         host.eye = {x, 0, 0};
         const Frame frame = host.render(settings);

@@ -71,7 +71,7 @@ double relative(double value, double expected) {
 
 Settings lamp_settings(int steps, volumetrics::LampIntegration integration) {
     Settings settings = plain_settings(steps);
-    settings.lamp_integration = integration;
+    settings.light.lamp_integration = integration;
     return settings;
 }
 
@@ -216,8 +216,8 @@ TEST_F(VolumetricsLamps, VisibilityIsSampledWhereTheLightIs) {
     host.lights = {point_light({1, 0.3F, -9}, 1000)};
     host.shadows = 1;
     Settings settings = lamp_settings(1, volumetrics::LampIntegration::segment);
-    settings.noise = volumetrics::Noise::bayer;
-    settings.noise_size = 16;
+    settings.noise.kind = volumetrics::Noise::bayer;
+    settings.noise.size = 16;
     const auto mean = [&](const Frame& frame) {
         double sum = 0;
         for (int y = 0; y < 16; ++y)
@@ -225,7 +225,7 @@ TEST_F(VolumetricsLamps, VisibilityIsSampledWhereTheLightIs) {
         return sum / 256;
     };
     const double one = mean(host.render(settings));
-    settings.steps = 512;
+    settings.march.steps = 512;
     EXPECT_LE(relative(one, mean(host.render(settings))), 0.03);
 }
 
@@ -233,13 +233,13 @@ TEST_F(VolumetricsLamps, WithoutLightTransmittanceOnlyTheViewRayAttenuates) {
     host.global = {{.sigma_s = glm::vec3(0.2F), .sigma_a = glm::vec3(0.1F)}};
     host.lights = {point_light({3, 0, -5}, 1000)};
     Settings settings = lamp_settings(64, volumetrics::LampIntegration::segment);
-    settings.light_transmittance = false;
+    settings.light.transmittance = false;
     const double without = host.render(settings).scattering.at(0, 0)[0];
     const auto integrand = [](double t) {
         return 1000 * 0.2 / (4 * 3.14159265358979) / (9 + (t - 5) * (t - 5)) * std::exp(-0.3 * t);
     };
     EXPECT_LE(relative(without, integrate(integrand, 0, 10)), 2e-3);
-    settings.light_transmittance = true;
+    settings.light.transmittance = true;
     EXPECT_LE(relative(host.render(settings).scattering.at(0, 0)[0], reference({0, 0, -1}, 10)), 2e-3);
 }
 

@@ -75,8 +75,8 @@ class VolumetricsLightVolume : public GlTest {
     /// As plain_settings, with volumes that are soon made.
     static Settings small_settings(int steps) {
         Settings s = plain_settings(steps);
-        s.sun_volume_size = 32;
-        s.froxels_x = s.froxels_y = 16;
+        s.light_volumes.sun_size = 32;
+        s.froxels.x = s.froxels.y = 16;
         return s;
     }
     StubHost host;
@@ -177,7 +177,7 @@ TEST_F(VolumetricsLightVolume, OpticalDepthsOfOverlappingMediaAddUp) {
 }
 
 TEST_F(VolumetricsLightVolume, LampBesideSphereAndInBox) {
-    settings.lamp_volume_size = 48;
+    settings.light_volumes.lamp_size = 48;
     LocalMedium coloured = ball;
     coloured.sigma_a = {0.4F, 0.1F, 0};
     for (const LocalMedium& medium : {coloured, box}) {
@@ -230,7 +230,7 @@ TEST_F(VolumetricsLightVolume, MediumOutOfViewDimsWhatIsInView) {
         EXPECT_THAT(frame.live_passes, Contains(sun_pass));
         EXPECT_THAT(frame.live_passes, Not(Contains("volumetrics/inject_media")));
         EXPECT_NEAR(frame.scattering.at(0, 0)[0] / open, std::exp(-1), 5e-3);
-        s.light_transmittance = false;
+        s.light.transmittance = false;
         EXPECT_NEAR(host.render(s).scattering.at(0, 0)[0] / open, 1, 1e-3);
     }
 }
@@ -285,9 +285,9 @@ TEST_F(VolumetricsLightVolume, NothingOfItWithoutNeed) {
     const std::size_t sun_only = bytes_without(s, lamp_pass);
     EXPECT_GT(sun_only, 32U * 32U * 16U * 2U);
     EXPECT_LT(sun_only, both);
-    s.light_transmittance = false;
+    s.light.transmittance = false;
     EXPECT_LT(bytes_without(s, sun_pass), buffers);
-    s.light_transmittance = true;
+    s.light.transmittance = true;
     host.has_sun = false;
     EXPECT_LT(bytes_without(s, sun_pass), buffers);
     host.has_sun = true;
@@ -311,7 +311,7 @@ TEST_F(VolumetricsLightVolume, WithoutVolumesTheyAreNotInTheShaderText) {
 }
 
 TEST_F(VolumetricsLightVolume, OverTheLimitTheFartherLampIsLeftOutAndSaid) {
-    settings.lamp_volume_count = 1;
+    settings.light_volumes.lamp_count = 1;
     host.local = {ball};
     host.lights = {point_light({1, 6, -30}, 1, 40), point_light({1, 6, -6}, 1, 40)};
     const glm::vec3 below{1, -2, -6};
@@ -324,7 +324,7 @@ TEST_F(VolumetricsLightVolume, OverTheLimitTheFartherLampIsLeftOutAndSaid) {
     EXPECT_TRUE(std::ranges::any_of(passes.passes(), [](const PassList::PassInfo& pass) {
         return !pass.live && pass.reason.starts_with("1 lamp");
     }));
-    settings.lamp_volume_count = 2;
+    settings.light_volumes.lamp_count = 2;
     EXPECT_LT(transmittance({glm::vec3(1, 2, -5)}, 0)[0].r, 0.9F);
 }
 
@@ -339,16 +339,16 @@ TEST_F(VolumetricsLightVolume, DenseMediumUnderSunAndLampAsInTheReference) {
         {.center = {0, 0, -8}, .half_extent = glm::vec3(2), .softness = 0.5F, .sigma_s = glm::vec3(1.2F)}};
     Settings reference = plain_settings(1);
     reference.technique = "reference";
-    reference.reference_steps = 512;
+    reference.reference.steps = 512;
     const Image expected = host.render(reference).scattering;
     for (const char* technique : {"ray_march", "froxel"}) {
         Settings s = plain_settings(128);
         s.technique = technique;
-        s.froxels_x = s.froxels_y = 96;
-        s.froxels_z = 128;
-        s.froxel_far = 12;
-        s.lamp_volume_size = 32;
-        s.froxel_distribution = volumetrics::DepthDistribution::linear;
+        s.froxels.x = s.froxels.y = 96;
+        s.froxels.z = 128;
+        s.froxels.far = 12;
+        s.light_volumes.lamp_size = 32;
+        s.froxels.distribution = volumetrics::DepthDistribution::linear;
         const Image image = host.render(s).scattering;
         double error = 0, sum = 0;
         for (int y = 0; y < 24; ++y)

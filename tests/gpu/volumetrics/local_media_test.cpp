@@ -21,9 +21,9 @@ class VolumetricsLocalMedia : public GlTest, public testing::WithParamInterface<
     static Settings fine_settings() {
         Settings settings = plain_settings(256);
         settings.technique = GetParam();
-        settings.froxels_x = settings.froxels_y = 96;
-        settings.froxels_z = 192;
-        settings.froxel_far = 40;
+        settings.froxels.x = settings.froxels.y = 96;
+        settings.froxels.z = 192;
+        settings.froxels.far = 40;
         return settings;
     }
     /// Length of the ray through a pixel inside the sphere of radius 2 at (0, 0, -10), by density.
@@ -51,7 +51,7 @@ TEST_P(VolumetricsLocalMedia, SphereHasTheOpticalDepthOfItsShape) {
                            .sigma_s = glm::vec3(0.2F),
                            .sigma_a = glm::vec3(0, 0.1F, 0.2F)}};
             Settings settings = fine_settings();
-            settings.froxel_distribution = distribution;
+            settings.froxels.distribution = distribution;
             const Frame frame = host.render(settings);
             double mean_error = 0;
             for (int y = 0; y < 16; ++y)
@@ -113,7 +113,7 @@ TEST_P(VolumetricsLocalMedia, NothingIsLeftBehindTheFroxelVolume) {
     host.view_depth = [](int, int) { return 100.0F; };
     host.local = {{.shape = Shape::box, .half_extent = glm::vec3(1000), .sigma_a = glm::vec3(0.05F)}};
     Settings settings = fine_settings();
-    settings.steps = 1024;
+    settings.march.steps = 1024;
     EXPECT_NEAR(host.render(settings).transmittance.at(0, 0)[0], std::exp(-0.05 * 40), 2e-3);
 }
 
@@ -121,10 +121,10 @@ TEST_P(VolumetricsLocalMedia, NothingIsLeftBehindTheFroxelVolume) {
 TEST_P(VolumetricsLocalMedia, TilesLoseNoMedium) {
     host.view_depth = [](int, int) { return 60.0F; };
     Settings settings = fine_settings();
-    settings.steps = 64;
-    settings.froxels_x = 64;
-    settings.froxels_y = 36;
-    settings.froxels_z = 48;
+    settings.march.steps = 64;
+    settings.froxels.x = 64;
+    settings.froxels.y = 36;
+    settings.froxels.z = 48;
     std::vector<LocalMedium> all;
     for (int i = 0; i < 70; ++i) {
         const float angle = 2.4F * static_cast<float>(i), distance = 0.6F * static_cast<float>(i);

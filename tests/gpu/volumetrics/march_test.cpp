@@ -37,8 +37,8 @@ class VolumetricsClosedForm : public VolumetricsMarch, public testing::WithParam
     [[nodiscard]] static Settings plain_settings(int steps) {
         Settings settings = test::plain_settings(steps);
         settings.technique = GetParam();
-        settings.froxels_x = 64;
-        settings.particle_count = settings.particle_local_count = 4096;
+        settings.froxels.x = 64;
+        settings.particles.count = settings.particles.local_count = 4096;
         return settings;
     }
     /// Relative error. Sheets add up in half floats: 0.5%.
@@ -114,7 +114,7 @@ TEST_P(VolumetricsSunClosedForm, SunWithoutOccludersFollowsTheClosedForm) {
                 {.sigma_s = glm::vec3(sigma), .sigma_a = glm::vec3(0, sigma, 2 * sigma), .anisotropy = g}};
             for (const auto dither : {volumetrics::Noise::none, volumetrics::Noise::bayer}) {
                 Settings settings = plain_settings(8);
-                settings.noise = dither;
+                settings.noise.kind = dither;
                 const Frame frame = host.render(settings);
                 for (int c = 0; c < 3; ++c) {
                     const double sigma_t = sigma * double(c + 1);
@@ -150,7 +150,7 @@ TEST_P(VolumetricsSunClosedForm, SchlickApproximatesHenyeyGreenstein) {
     host.global = {{.sigma_s = glm::vec3(1e-6F), .anisotropy = 0.4F}};
     host.sun_illuminance = glm::vec3(1e6F);
     Settings settings = plain_settings(1);
-    settings.phase = volumetrics::PhaseFunction::schlick;
+    settings.light.phase = volumetrics::PhaseFunction::schlick;
     const double k = 1.55 * 0.4 - 0.55 * 0.064;
     const double expected = (1 - k * k) / (4 * pi * std::pow(1 - k * std::numbers::sqrt2 / 2, 2)) * 10;
     EXPECT_LE(relative(host.render(settings).scattering.at(0, 0)[0], expected), 1e-3);
@@ -180,7 +180,7 @@ TEST_P(VolumetricsSunClosedForm, HeightMediumAgreesWithQuadrature) {
                             .falloff = falloff}};
             if (homogeneous > 0) host.global.push_back({.sigma_s = glm::vec3(homogeneous), .anisotropy = 0.3F});
             Settings settings = plain_settings(8);
-            settings.light_transmittance = light_transmittance;
+            settings.light.transmittance = light_transmittance;
             const Frame frame = host.render(settings);
             for (int y = 0; y < 9; ++y) {
                 const glm::dvec3 d = host.ray(0, y);
@@ -218,7 +218,7 @@ TEST_P(VolumetricsClosedForm, FogGoesOnBehindTheMarch) {
     host.sun_illuminance = glm::vec3(1000);
     host.sun_direction = {0, -1, 0};
     Settings settings = plain_settings(8);
-    settings.max_distance = settings.froxel_far = 50;
+    settings.march.max_distance = settings.froxels.far = 50;
     host.size = {2, 1};
     host.vertical_fov = 0.001F;
     host.view_depth = [](int x, int) { return x == 0 ? 300.0F : sky; };
@@ -237,7 +237,7 @@ TEST_P(VolumetricsClosedForm, HeightFogEndsTowardsTheSky) {
     host.view_depth = [](int, int) { return sky; };
     host.global = {{.sigma_a = glm::vec3(0.02F), .height = true, .falloff = 10}};
     Settings settings = plain_settings(8);
-    settings.max_distance = settings.froxel_far = 20;
+    settings.march.max_distance = settings.froxels.far = 20;
     const Frame frame = host.render(settings);
     EXPECT_LE(relative(frame.transmittance.at(0, 0)[0], std::exp(-0.02 * 10 / host.ray(0, 2).y)), tolerance());
     EXPECT_EQ(frame.transmittance.at(0, 1)[0], 0);
@@ -250,8 +250,8 @@ TEST_F(VolumetricsMarch, SteppingChangesNothingWhereAllIsInClosedForm) {
     const Frame uniform = host.render(plain_settings(16));
     for (const float strength : {0.01F, 3.0F, 10.0F}) {
         Settings settings = plain_settings(16);
-        settings.stepping = volumetrics::Stepping::exponential;
-        settings.stepping_strength = strength;
+        settings.march.stepping = volumetrics::Stepping::exponential;
+        settings.march.stepping_strength = strength;
         const Frame frame = host.render(settings);
         EXPECT_NEAR(frame.scattering.at(0, 0)[0], uniform.scattering.at(0, 0)[0],
                     1e-3 * uniform.scattering.at(0, 0)[0]);
@@ -271,7 +271,7 @@ TEST_F(VolumetricsMarch, DitherMovesTheSamplesOverTheWholeStep) {
     host.shadows = 1;
     for (const auto dither : {volumetrics::Noise::bayer, volumetrics::Noise::white_tile}) {
         Settings settings = plain_settings(1);
-        settings.noise = dither;
+        settings.noise.kind = dither;
         const Frame frame = host.render(settings);
         int visible = 0;
         for (int y = 0; y < 8; ++y)
@@ -321,10 +321,10 @@ TEST_P(VolumetricsClosedForm, ExtremeParametersStayFiniteAndInRange) {
                             GetParam() != "froxel")
                             continue;  // is the same
                         Settings settings = plain_settings(1);
-                        settings.lamp_integration = lamps;
-                        settings.filter = volumetrics::Filter::gaussian15;
-                        settings.froxels_x = settings.froxels_y = settings.froxels_z = 8;
-                        settings.reference_steps = 32;
+                        settings.light.lamp_integration = lamps;
+                        settings.filter.kernel = volumetrics::Filter::gaussian15;
+                        settings.froxels.x = settings.froxels.y = settings.froxels.z = 8;
+                        settings.reference.steps = 32;
                         const Frame frame = host.render(settings);
                         for (const float v : frame.scattering.pixels)
                             ASSERT_TRUE(std::isfinite(v) && v >= 0) << v << " at sigma " << sigma;

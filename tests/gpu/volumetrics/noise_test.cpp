@@ -71,8 +71,8 @@ void main() {
     }
     static Settings with(Noise noise, NoiseTime time = NoiseTime::fixed) {
         Settings settings;
-        settings.noise = noise;
-        settings.noise_time = time;
+        settings.noise.kind = noise;
+        settings.noise.time = time;
         return settings;
     }
     ShaderFolder folder;
@@ -90,7 +90,7 @@ TEST_F(VolumetricsNoise, EachTileHoldsEachStratumOnce) {
     for (const Noise noise : {Noise::bayer, Noise::white_tile})
         for (const int size : {2, 4, 8, 16}) {
             Settings settings = with(noise);
-            settings.noise_size = size;
+            settings.noise.size = size;
             const std::vector<float> all = offsets(settings, 5);
             std::vector<std::set<float>> tiles((side / size) * (side / size));
             for (int i = 0; i < side * side; ++i)
@@ -140,8 +140,8 @@ TEST_F(VolumetricsNoise, EveryTextureIsThereAndAnother) {
     for (int space = 0; space < 5; ++space)
         for (int time = 0; time < 2; ++time) {
             Settings settings = with(Noise::fast);
-            settings.fast_space = static_cast<volumetrics::SpatialKernel>(space);
-            settings.fast_time = static_cast<volumetrics::TemporalKernel>(time);
+            settings.noise.fast_space = static_cast<volumetrics::SpatialKernel>(space);
+            settings.noise.fast_time = static_cast<volumetrics::TemporalKernel>(time);
             different.insert(offsets(settings, 0));
         }
     different.insert(offsets(with(Noise::blue), 0));
@@ -249,8 +249,8 @@ TEST_F(VolumetricsNoise, MarchSamplesWhereTheNoiseSaysAndPaysForTexturesAlone) {
     host.count_work = true;
     const auto draw = [&](Noise noise, NoiseTime time, std::uint32_t frame) {
         Settings settings = plain_settings(4);
-        settings.noise = noise;
-        settings.noise_time = time;
+        settings.noise.kind = noise;
+        settings.noise.time = time;
         host.frame_index = frame;
         return host.render(settings);
     };

@@ -19,7 +19,7 @@ class VolumetricsParticles : public GlTest {
   protected:
     VolumetricsParticles() {
         s.technique = "particles";
-        s.particle_count = 4096;
+        s.particles.count = 4096;
         host.size = {48, 32};
         host.view_depth = [](int, int) { return 30.0F; };
     }
@@ -74,7 +74,7 @@ TEST_F(VolumetricsParticles, SunIsTheClosedFormWithAnyNumberOfParticles) {
     host.global = {{.sigma_s = glm::vec3(0.02F), .sigma_a = glm::vec3(0.01F)}};
     for (const int count : {512, 8192})
         for (const float depth : {3.0F, 30.0F, 200.0F}) {
-            s.particle_count = count;
+            s.particles.count = count;
             host.view_depth = [depth](int, int) { return depth; };
             const Frame frame = host.render(s);
             for (int y = 0; y < 32; ++y)
@@ -100,8 +100,8 @@ TEST_F(VolumetricsParticles, LampsAndShadowsAreThoseOfTheMarchOnAverage) {
     const glm::dvec2 expected = mean_and_deviation(exact);
     double last = 1;
     for (const auto& [count, tolerance] : {std::pair(4096, 0.15), std::pair(32768, 0.05)}) {
-        s.particle_count = count;
-        s.particle_distance = 24;
+        s.particles.count = count;
+        s.particles.distance = 24;
         const Image image = host.render(s).scattering;
         EXPECT_NEAR(mean_and_deviation(image).x, expected.x, tolerance * expected.x) << count;
         double error = 0;
@@ -113,7 +113,7 @@ TEST_F(VolumetricsParticles, LampsAndShadowsAreThoseOfTheMarchOnAverage) {
 }
 
 TEST_F(VolumetricsParticles, LocalMediaTakeAwayWhatBeerLambertSays) {
-    s.particle_local_count = 8192;
+    s.particles.local_count = 8192;
     for (const float sigma_t : {0.02F, 0.1F, 0.3F}) {
         box_in_view(0, sigma_t);
         const Frame frame = host.render(s);
@@ -132,7 +132,7 @@ TEST_F(VolumetricsParticles, LocalMediaUnderEqualLightGainAndLoseNothing) {
     // What is scattered and what comes through are 1 together, wherever discs overlap. Their sum in half floats is
     // up to 3% too bright in a pixel and 0.9% in the mean.
     host.ambient = glm::vec3(1);
-    s.particle_local_count = 8192;
+    s.particles.local_count = 8192;
     for (const auto& [sigma_s, worst, mean] :
          {std::tuple(0.02F, 0.008, 0.001), {0.3F, 0.02, 0.005}, {50.0F, 0.035, 0.012}}) {
         box_in_view(sigma_s, 0);
@@ -151,8 +151,8 @@ TEST_F(VolumetricsParticles, LocalMediaUnderEqualLightGainAndLoseNothing) {
 
 TEST_F(VolumetricsParticles, LocalLightIsTheClosedFormOnAverage) {
     sunlight();
-    s.light_transmittance = false;
-    s.particle_local_count = 8192;
+    s.light.transmittance = false;
+    s.particles.local_count = 8192;
     box_in_view(0.05F, 0.05F);
     double expected = 0;
     for (int y = 0; y < 32; ++y)
@@ -195,15 +195,15 @@ TEST_F(VolumetricsParticles, LowerResolutionIsTheSameWhereDiscsAreWide) {
     sunlight();
     box_in_view(0.02F, 0.02F);
     host.global = {{.sigma_s = {0.01F, 0.02F, 0.03F}}};
-    s.particle_local_count = 256;  // 2 m wide, a fourth of the picture
-    s.particle_count = 512;
+    s.particles.local_count = 256;  // 2 m wide, a fourth of the picture
+    s.particles.count = 512;
     host.vertical_fov = 0.1F;
     for (const glm::ivec2 size : low_resolution_sizes) {
         host.size = size;
-        s.resolution = volumetrics::Resolution::full;
+        s.resolution.size = volumetrics::Resolution::full;
         const Frame full = host.render(s);
         for (const auto resolution : {volumetrics::Resolution::half, volumetrics::Resolution::quarter}) {
-            s.resolution = resolution;
+            s.resolution.size = resolution;
             const Frame low = host.render(s);
             const double tolerance = resolution == volumetrics::Resolution::half ? 0.04 : 0.1;
             EXPECT_LT(largest_difference(low.scattering, full.scattering), tolerance) << size.x << " px";
@@ -214,25 +214,25 @@ TEST_F(VolumetricsParticles, LowerResolutionIsTheSameWhereDiscsAreWide) {
 
 TEST_F(VolumetricsParticles, MeanOverFramesIsOfMoreParticlesThanOneFrameHas) {
     sunlight();
-    s.light_transmittance = false;
-    s.particle_local_count = 512;
+    s.light.transmittance = false;
+    s.particles.local_count = 512;
     box_in_view(0.02F, 0.02F);
-    s.noise = volumetrics::Noise::bayer;
+    s.noise.kind = volumetrics::Noise::bayer;
     const glm::dvec2 one = mean_and_deviation(host.render(s).transmittance);
     const auto last_of = [&](volumetrics::NoiseTime time) {
-        const volumetrics::Temporal temporal = std::exchange(s.temporal, volumetrics::Temporal::off);
+        const volumetrics::Temporal temporal = std::exchange(s.temporal.mode, volumetrics::Temporal::off);
         (void)host.render(s);  // forgets what was before
-        s.temporal = temporal;
-        s.noise_time = time;
+        s.temporal.mode = temporal;
+        s.noise.time = time;
         Frame frame;
         for (host.frame_index = 0; host.frame_index < 12; ++host.frame_index) frame = host.render(s);
         return mean_and_deviation(frame.transmittance).y;
     };
-    s.temporal = volumetrics::Temporal::accumulate;
-    s.temporal_clip = s.temporal_reject = false;
+    s.temporal.mode = volumetrics::Temporal::accumulate;
+    s.temporal.clip = s.temporal.reject = false;
     EXPECT_LT(last_of(volumetrics::NoiseTime::golden_ratio), 0.4 * one.y);
     EXPECT_NEAR(last_of(volumetrics::NoiseTime::fixed), one.y, 0.05 * one.y) << "they stay where they are";
-    s.temporal = volumetrics::Temporal::off;
+    s.temporal.mode = volumetrics::Temporal::off;
     EXPECT_NEAR(last_of(volumetrics::NoiseTime::golden_ratio), one.y, 1e-3 * one.y) << "nothing would average them";
 }
 
@@ -240,7 +240,7 @@ TEST_F(VolumetricsParticles, NoFilterBlursThem) {
     sunlight();
     box_in_view(0.2F, 0);
     const Frame plain = host.render(s);
-    s.filter = volumetrics::Filter::gaussian15;
+    s.filter.kernel = volumetrics::Filter::gaussian15;
     const Frame frame = host.render(s);
     EXPECT_EQ(frame.scattering.pixels, plain.scattering.pixels);
     EXPECT_EQ(frame.skipped.at("volumetrics/filter_horizontal"), "pixels sample nothing");
@@ -271,7 +271,7 @@ TEST_F(VolumetricsParticles, FiniteAtTheExtremes) {
     host.sun_illuminance = glm::vec3(1e8F);
     host.ambient = glm::vec3(1e8F);
     host.lights = {point_light({0, 0, 0}, 1e8F, 100, 0)};
-    s.particle_count = s.particle_local_count = 512;
+    s.particles.count = s.particles.local_count = 512;
     for (const float sigma : {1e-6F, 1e4F})
         for (const float y : {0.0F, -1e6F}) {
             if (sigma == 1e4F) reconstruct_all(s);

@@ -57,13 +57,13 @@ TEST_F(VolumetricsPasses, TechniqueOffIsAsIfThereWereNoMedium) {
 TEST_F(VolumetricsPasses, EachPassIsThereWhenItIsNeeded) {
     host.global = {fog};
     Settings settings;
-    settings.filter = volumetrics::Filter::none;
-    settings.temporal = volumetrics::Temporal::off;
+    settings.filter.kernel = volumetrics::Filter::none;
+    settings.temporal.mode = volumetrics::Temporal::off;
     EXPECT_THAT(host.render(settings).live_passes, ElementsAre("volumetrics/march"));
-    settings.temporal = volumetrics::Temporal::accumulate;
+    settings.temporal.mode = volumetrics::Temporal::accumulate;
     EXPECT_THAT(host.render(settings).live_passes, ElementsAre("volumetrics/march", "volumetrics/temporal"));
-    settings.temporal = volumetrics::Temporal::off;
-    settings.filter = volumetrics::Filter::gaussian15;
+    settings.temporal.mode = volumetrics::Temporal::off;
+    settings.filter.kernel = volumetrics::Filter::gaussian15;
     EXPECT_THAT(host.render(settings).live_passes,
                 ElementsAre("volumetrics/march", "volumetrics/filter_horizontal", "volumetrics/filter_vertical"));
     host.global.clear();
@@ -110,7 +110,7 @@ TEST_F(VolumetricsPasses, WorkIsCountedExactly) {
     constexpr std::uint64_t pixels = 64, steps = 5;
     for (const auto lamps : {volumetrics::LampIntegration::center, volumetrics::LampIntegration::segment}) {
         Settings settings = plain_settings(steps);
-        settings.lamp_integration = lamps;
+        settings.light.lamp_integration = lamps;
         const gl::WorkCounts work = host.render(settings).work.at("volumetrics/march");
         EXPECT_EQ(work[int(gl::Work::medium_samples)], pixels * steps);
         EXPECT_EQ(work[int(gl::Work::shadow_lookups)], pixels * steps * 2);  // the sun and one lamp
@@ -118,8 +118,8 @@ TEST_F(VolumetricsPasses, WorkIsCountedExactly) {
         EXPECT_EQ(work[int(gl::Work::texture_fetches)], pixels);
     }
     Settings settings = plain_settings(steps);
-    settings.filter = volumetrics::Filter::gaussian15;
-    settings.reconstruct = volumetrics::Reconstruct::light;
+    settings.filter.kernel = volumetrics::Filter::gaussian15;
+    settings.filter.reconstruct = volumetrics::Reconstruct::light;
     EXPECT_EQ(host.render(settings).work.at("volumetrics/filter_vertical")[int(gl::Work::texture_fetches)],
               pixels * 30);
 }

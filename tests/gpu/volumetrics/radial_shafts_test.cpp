@@ -27,7 +27,7 @@ class RadialShafts : public GlTest {
     [[nodiscard]] static Settings settings(RadialOcclusion occlusion) {
         Settings settings = plain_settings(1);
         settings.technique = "radial_shafts";
-        settings.radial_occlusion = occlusion;
+        settings.radial_shafts.occlusion = occlusion;
         return settings;
     }
     [[nodiscard]] Frame fog(const std::string& technique = "analytic_fog") {
@@ -112,7 +112,7 @@ TEST_F(RadialShafts, LightThroughAWindowFallsWhereGeometrySaysSo) {
         for (const RadialOcclusion occlusion : both) {
             if (occlusion == RadialOcclusion::coverage && sigma > 1e-3F) continue;  // it knows no attenuation
             Settings s = settings(occlusion);
-            s.radial_samples = 256;
+            s.radial_shafts.samples = 256;
             const Frame frame = host.render(s);
             for (int x = 0; x < 128; x += 5) {
                 // The point at view depth z meets the wall at column x + (95.5 - x) (1 - z / wall).
@@ -142,7 +142,7 @@ TEST_F(RadialShafts, APostDarkensWhatLiesBehindItAsSeenFromTheSun) {
     const Frame lit = fog();
     for (const RadialOcclusion occlusion : both) {
         Settings s = settings(occlusion);
-        s.radial_samples = 64;
+        s.radial_shafts.samples = 64;
         const Frame frame = host.render(s);
         const auto share = [&](int x) { return frame.scattering.at(x, 0)[0] / lit.scattering.at(x, 0)[0]; };
         for (int x = 36; x < 64; ++x) EXPECT_EQ(share(x), 1) << x;
@@ -178,8 +178,8 @@ TEST_F(RadialShafts, OccludedSunIsDarkAndDecayWeighs) {
     const double lit = fog().scattering.at(0, 0)[0];
     for (const float decay : {0.01F, 0.5F, 1.0F, 20.0F}) {
         Settings s = settings(RadialOcclusion::coverage);
-        s.radial_decay = decay;
-        s.radial_samples = 512;
+        s.radial_shafts.decay = decay;
+        s.radial_shafts.samples = 512;
         const double r = decay, covered = decay == 1.0F ? 0.5 : (r - std::sqrt(r)) / (r - 1);
         EXPECT_NEAR(host.render(s).scattering.at(0, 0)[0] / lit, 1 - covered, 0.02) << decay;
     }
@@ -193,8 +193,8 @@ TEST_F(RadialShafts, TheSunLeavesThePictureWithoutAPop) {
     for (const float unseen : {1.0F, 0.25F})
         for (const RadialOcclusion occlusion : both) {
             Settings s = settings(occlusion);
-            s.radial_unseen = unseen;
-            s.radial_samples = 64;
+            s.radial_shafts.unseen = unseen;
+            s.radial_shafts.samples = 64;
             put_sun(0, 0);
             const Image lit = fog().scattering;
             Frame frame;
@@ -241,7 +241,7 @@ TEST_F(RadialShafts, WorkIsThatOfItsSamplesAndNoneWithTheSunBehind) {
     host.count_work = true;
     host.size = {8, 8};
     Settings s = settings(RadialOcclusion::coverage);
-    s.radial_samples = 20;
+    s.radial_shafts.samples = 20;
     put_sun(0.1F, 0.1F);
     EXPECT_EQ(host.render(s).work.at("volumetrics/radial_visibility")[int(gl::Work::texture_fetches)], 64U * 21);
     put_sun(0.1F, 0.1F, -1);
@@ -259,11 +259,11 @@ TEST_F(RadialShafts, BlurTakesTheNoiseOfTheDitherAndLeavesTheFog) {
     host.view_depth = [](int, int) { return sky; };
     put_sun(0.2F, 0.9F);
     Settings s = settings(RadialOcclusion::intervals);
-    s.filter = volumetrics::Filter::gaussian15;
+    s.filter.kernel = volumetrics::Filter::gaussian15;
     const Frame frame = host.render(s);
-    EXPECT_THAT(frame.live_passes, ElementsAre("volumetrics/radial_visibility", "volumetrics/radial_shafts",
-                                               "volumetrics/filter_horizontal", "volumetrics/filter_vertical",
-                                               "volumetrics/relight"));
+    EXPECT_THAT(frame.live_passes,
+                ElementsAre("volumetrics/radial_visibility", "volumetrics/radial_shafts",
+                            "volumetrics/filter_horizontal", "volumetrics/filter_vertical", "volumetrics/relight"));
     // The fog's edge at the horizon stays as sharp as it is.
     const Frame sharp = fog();
     for (std::size_t i = 0; i < sharp.scattering.pixels.size(); ++i)
@@ -288,8 +288,8 @@ TEST_F(RadialShafts, ExtremesStayFiniteAndBounded) {
                                        {.sigma_s = sigma_s, .height = true, .base = base, .falloff = 10}};
                         for (const RadialOcclusion occlusion : both) {
                             Settings s = settings(occlusion);
-                            s.radial_samples = sigma == 1 ? 512 : 3;
-                            s.radial_decay = base == 0 ? 100 : 0.01F;
+                            s.radial_shafts.samples = sigma == 1 ? 512 : 3;
+                            s.radial_shafts.decay = base == 0 ? 100 : 0.01F;
                             const Frame frame = host.render(s);
                             // Sun of 4 lx scattered isotropically is less than 1/pi.
                             for (int i = 0; i < 35; ++i)

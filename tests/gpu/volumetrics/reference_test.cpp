@@ -18,7 +18,7 @@ constexpr double pi = std::numbers::pi;
 Settings reference_settings(int steps = 1024) {
     Settings settings;  // dither and blur as they are by default: they must not matter
     settings.technique = "reference";
-    settings.reference_steps = steps;
+    settings.reference.steps = steps;
     return settings;
 }
 
@@ -179,7 +179,7 @@ TEST_F(VolumetricsReference, TailBehindTheSamplesIsClosed) {
     host.has_sun = true;
     host.global = {{.sigma_s = glm::vec3(0.02F), .sigma_a = glm::vec3(0.01F)}};
     Settings settings = reference_settings();
-    settings.max_distance = 30;
+    settings.march.max_distance = 30;
     const Frame frame = host.render(settings);
     EXPECT_LE(relative(frame.scattering.at(0, 0)[0], 2.0 / 3 / (4 * pi)), 1e-4);
     EXPECT_EQ(frame.transmittance.at(0, 0)[0], 0);
@@ -195,7 +195,7 @@ TEST_F(VolumetricsReference, SunIsAttenuatedInsideABox) {
                    .sigma_a = glm::vec3(0, 0.25F, 0.5F)}};
     Settings settings = reference_settings(64);
     for (const bool light_transmittance : {true, false}) {
-        settings.light_transmittance = light_transmittance;
+        settings.light.transmittance = light_transmittance;
         const Frame frame = host.render(settings);
         for (int c = 0; c < 3; ++c) {
             const double sigma_t = 0.5 + 0.25 * c;
@@ -284,7 +284,7 @@ TEST_F(VolumetricsReference, LampLightIsAttenuatedByShapes) {
     Solid soft_ball = ball;
     soft_ball.softness = 0.8;
     Settings settings = reference_settings();
-    settings.reference_light_steps = 64;
+    settings.reference.light_steps = 64;
     for (const Solid& shape : {turned_box, soft_ball}) {
         host.local = {shape.medium(0.4F, 0.2F)};
         const Frame frame = host.render(settings);
@@ -326,10 +326,10 @@ TEST_F(VolumetricsReference, StepsLoseNoLightOfManyLamps) {
                          std::fmod(1.713F * static_cast<float>(i), 6.0F) - 3, -0.1F * static_cast<float>(i) - 1},
                         100, 6));
     Settings settings = reference_settings(256);
-    settings.reference_lamp_samples = 8;
+    settings.reference.lamp_samples = 8;
     const Frame coarse = host.render(settings);
-    settings.reference_steps = 4096;
-    settings.reference_lamp_samples = 4;
+    settings.reference.steps = 4096;
+    settings.reference.lamp_samples = 4;
     EXPECT_LE(relative_rmse(coarse.scattering, host.render(settings).scattering), 1e-3);
 }
 

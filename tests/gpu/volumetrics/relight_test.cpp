@@ -23,11 +23,11 @@ class VolumetricsRelight : public GlTest {
     /// Dithered and filtered, whatever the depth.
     static Settings filtered(Reconstruct reconstruct) {
         Settings settings = plain_settings(4);
-        settings.noise = volumetrics::Noise::bayer;
-        settings.filter = Filter::gaussian15;
-        settings.filter_sigma = 2;
-        settings.filter_depth = volumetrics::FilterDepth::none;
-        settings.reconstruct = reconstruct;
+        settings.noise.kind = volumetrics::Noise::bayer;
+        settings.filter.kernel = Filter::gaussian15;
+        settings.filter.sigma = 2;
+        settings.filter.depth = volumetrics::FilterDepth::none;
+        settings.filter.reconstruct = reconstruct;
         return settings;
     }
     void light_everything() {
@@ -183,9 +183,9 @@ class VolumetricsRuns : public VolumetricsRelight {
     }
     static Settings coarse(int steps) {
         Settings settings = filtered(Reconstruct::visibility);
-        settings.steps = steps;
-        settings.froxel_distribution = volumetrics::DepthDistribution::linear;
-        settings.froxel_far = 40;
+        settings.march.steps = steps;
+        settings.froxels.distribution = volumetrics::DepthDistribution::linear;
+        settings.froxels.far = 40;
         return settings;
     }
     /// Medium samples a pixel.
@@ -201,7 +201,7 @@ TEST_F(VolumetricsRuns, MediumThatFillsAllIsTheClosedFormInAnyNumberOfSteps) {
     host.local[0].anisotropy = 0.3F;
     for (const int steps : {1, 3, 8}) {
         Settings settings = coarse(steps);
-        settings.light_transmittance = false;
+        settings.light.transmittance = false;
         const Frame frame = host.render(settings);
         for (int y = 0; y < 16; ++y)
             for (int x = 0; x < 24; ++x) {
@@ -236,7 +236,7 @@ TEST_F(VolumetricsRuns, EachMediumIsThatOfTheReference) {
         host.local = cases[i].media;
         for (const bool attenuation : {false, true}) {
             Settings settings = coarse(4);
-            settings.light_transmittance = attenuation;
+            settings.light.transmittance = attenuation;
             const Frame expected = truth(settings), frame = host.render(settings);
             double red = 0;
             for (std::size_t k = 0; k < expected.scattering.pixels.size(); k += 4)
@@ -271,7 +271,7 @@ TEST_F(VolumetricsRuns, VisibilityIsSampledWhereTheLightComesFrom) {
     for (const bool attenuation : {false, true}) {
         for (const int steps : {1, 2, 5}) {
             Settings settings = coarse(steps);
-            settings.light_transmittance = attenuation;
+            settings.light.transmittance = attenuation;
             const double expected = mean(truth(settings).scattering);
             EXPECT_NEAR(mean(host.render(settings).scattering), expected, 0.03 * expected) << steps << attenuation;
         }
@@ -288,7 +288,7 @@ TEST_F(VolumetricsRuns, VisibilityFollowsTheDensityOfAHeightMedium) {
     host.local[0].half_extent.y = 46;
     host.global = {{.sigma_s = glm::vec3(0.05F), .height = true, .falloff = 1.5F}};
     Settings settings = coarse(1);
-    settings.light_transmittance = false;
+    settings.light.transmittance = false;
     const auto expect_alike = [&](const Settings& once, double tolerance) {
         const Image expected = truth(once).scattering, image = host.render(once).scattering;
         double difference = 0, sum = 0;
@@ -303,14 +303,14 @@ TEST_F(VolumetricsRuns, VisibilityFollowsTheDensityOfAHeightMedium) {
     host.local.clear();
     expect_alike(settings, 0.02);
     Settings light = settings;
-    light.reconstruct = volumetrics::Reconstruct::light;
+    light.filter.reconstruct = volumetrics::Reconstruct::light;
     expect_alike(light, 0.04);
 }
 
 TEST_F(VolumetricsRuns, OnlySlicesInWhichMediaChangeCost) {
     Settings settings = coarse(4);
-    settings.light_transmittance = false;
-    settings.froxel_distribution = volumetrics::DepthDistribution::exponential;
+    settings.light.transmittance = false;
+    settings.froxels.distribution = volumetrics::DepthDistribution::exponential;
     EXPECT_EQ(samples(settings), 4);
     host.local = {box(glm::vec3(0), glm::vec3(1000), 0.05F)};
     EXPECT_LE(samples(settings), 6);
@@ -332,10 +332,10 @@ TEST_F(VolumetricsRelight, FrameSaysWhyLightIsFilteredWhole) {
     EXPECT_EQ(reason(filtered(Reconstruct::light)), "reconstruct is light");
     Settings settings = filtered(Reconstruct::visibility);
     EXPECT_FALSE(host.render(settings).skipped.contains("volumetrics/relight"));
-    settings.filter = Filter::none;
+    settings.filter.kernel = Filter::none;
     EXPECT_EQ(reason(settings), "nothing reconstructs visibility");
     settings = filtered(Reconstruct::visibility);
-    settings.lamp_integration = volumetrics::LampIntegration::center;
+    settings.light.lamp_integration = volumetrics::LampIntegration::center;
     EXPECT_EQ(reason(settings), "lamp_integration is center: unshadowed light is noisy, too");
     host.lights.clear();
     host.has_sun = false;

@@ -30,16 +30,17 @@ constexpr std::array odd_sizes{glm::ivec2(1), glm::ivec2(3, 5), glm::ivec2(33, 1
 Settings settings(Resolution resolution, Upsample upsample = Upsample::bilateral,
                   DepthChoice choice = DepthChoice::checkerboard) {
     Settings settings = plain_settings(4);
-    settings.resolution = resolution;
-    settings.upsample = upsample;
-    settings.resolution_depth = choice;
+    settings.resolution.size = resolution;
+    settings.resolution.upsample = upsample;
+    settings.resolution.depth = choice;
     return settings;
 }
 
 /// For messages.
 std::string name_of(const Settings& s) {
-    return "resolution " + std::to_string(int(s.resolution)) + ", upsample " + std::to_string(int(s.upsample)) +
-           ", resolution_depth " + std::to_string(int(s.resolution_depth));
+    return "resolution " + std::to_string(int(s.resolution.size)) + ", upsample " +
+           std::to_string(int(s.resolution.upsample)) + ", resolution_depth " +
+           std::to_string(int(s.resolution.depth));
 }
 
 double light_at(double depth) {
@@ -169,7 +170,7 @@ TEST_F(VolumetricsResolution, SkyIsLikeItselfOnly) {
     for (const Resolution resolution : low_resolutions)
         for (const Upsample mode : edge_modes) {
             Settings s = settings(resolution, mode);
-            s.filter_depth_falloff = 0;  // all depths are alike, but the sky is none
+            s.filter.depth_falloff = 0;  // all depths are alike, but the sky is none
             host.view_depth = [](int, int y) { return y >= 9 ? sky : 5.0F; };
             EXPECT_LT(error_against_own_depth(host.render(s)), 0.01) << name_of(s);
         }
@@ -201,7 +202,7 @@ TEST_F(VolumetricsResolution, AGrazingFloorIsOneSurface) {
             const Image bilinear = host.render(settings(resolution, Upsample::bilinear, choice)).scattering;
             for (const Upsample mode : edge_modes) {
                 Settings s = settings(resolution, mode, choice);
-                s.filter_depth_falloff = 100;
+                s.filter.depth_falloff = 100;
                 const Image image = host.render(s).scattering;
                 for (std::size_t i = row; i < image.pixels.size(); ++i)
                     ASSERT_NEAR(image.pixels[i], bilinear.pixels[i], 2e-3 * bilinear.pixels[i]) << name_of(s);
@@ -236,7 +237,7 @@ TEST_F(VolumetricsResolution, OddSizesWork) {
                     host.size = size;
                     Settings s = settings(resolution, mode);
                     s.technique = technique;
-                    s.froxels_x = s.froxels_y = s.froxels_z = 8;
+                    s.froxels.x = s.froxels.y = s.froxels.z = 8;
                     EXPECT_LT(error_against_own_depth(host.render(s)), 2e-3) << name_of(s) << ", width " << size.x;
                 }
 }
@@ -266,7 +267,7 @@ TEST_F(VolumetricsResolution, EverythingAtOnceIsFiniteAtAnySize) {
         for (const Upsample mode : modes) {
             host.size = size;
             Settings s = settings(size.x == 3 ? Resolution::quarter : Resolution::half, mode);
-            s.filter = volumetrics::Filter::gaussian15;
+            s.filter.kernel = volumetrics::Filter::gaussian15;
             const Frame frame = host.render(s);
             ASSERT_EQ(frame.scattering.size, size);
             for (const float v : frame.scattering.pixels) ASSERT_TRUE(v >= 0 && std::isfinite(v));
@@ -287,7 +288,7 @@ TEST_F(VolumetricsResolution, RadialShaftsFindTheSameWindow) {
     const auto shafts = [&](Resolution resolution) {
         Settings s = settings(resolution);
         s.technique = "radial_shafts";
-        s.radial_samples = 64;
+        s.radial_shafts.samples = 64;
         return host.render(s).scattering;
     };
     const Image full = shafts(Resolution::full);
@@ -349,8 +350,8 @@ TEST_F(VolumetricsResolution, FogOfTransparentsIsThatOfFullResolution) {
     const auto fog = [&](const std::string& technique, Resolution resolution) {
         Settings s = settings(resolution);
         s.technique = technique;
-        s.froxels_x = s.froxels_y = s.froxels_z = 8;
-        s.froxel_history = 0;
+        s.froxels.x = s.froxels.y = s.froxels.z = 8;
+        s.froxels.history = 0;
         PassList passes;
         Inputs inputs = host.inputs(passes);
         inputs.transparents = true;

@@ -24,8 +24,8 @@ class VolumetricsShaftGeometry : public GlTest {
 
     void SetUp() override {
         settings.technique = "shaft_geometry";
-        settings.shaft_grid = 64;
-        settings.max_distance = 400;  // a ray to the sky is integrated as far
+        settings.shaft_geometry.grid = 64;
+        settings.march.max_distance = 400;  // a ray to the sky is integrated as far
         host.size = {32, 18};
         host.has_sun = true;
         host.sun_direction = glm::normalize(glm::vec3(0.3F, -1, 0.2F));
@@ -118,7 +118,7 @@ TEST_F(VolumetricsShaftGeometry, ShadowOfAHalfPlaneConvergesWithTheGrid) {
         host.eye = eye;
         std::vector<double> errors;
         for (int grid : {32, 128, 512}) {
-            settings.shaft_grid = grid;
+            settings.shaft_geometry.grid = grid;
             errors.push_back(error().rms);
         }
         EXPECT_LE(errors[1], 0.4 * errors[0]) << eye.x;
@@ -128,7 +128,7 @@ TEST_F(VolumetricsShaftGeometry, ShadowOfAHalfPlaneConvergesWithTheGrid) {
 }
 
 TEST_F(VolumetricsShaftGeometry, ShadowIsRightTowardsAndAwayFromTheSun) {
-    settings.shaft_grid = 256;
+    settings.shaft_geometry.grid = 256;
     for (const float z : {1.0F, -1.0F}) {
         host.sun_direction = glm::normalize(glm::vec3(0.1F, -0.3F, z));
         for (const float x : {2.0F, -2.0F}) {
@@ -155,7 +155,7 @@ TEST_F(VolumetricsShaftGeometry, ShadowsTakeLightAwayAndSurfacesCutThem) {
         host.view_depth = [depth](int, int) { return depth; };
         host.znear = 0.01F;
         host.eye = {1.3F, 0, 0};  // 0.1 m in the light
-        settings.shaft_grid = 512;
+        settings.shaft_geometry.grid = 512;
         const Error e = error();
         EXPECT_LE(e.rms, 0.02) << depth;
         const Frame shadowed = host.render(settings);
@@ -195,14 +195,14 @@ TEST_F(VolumetricsShaftGeometry, LinearInLight) {
 
 TEST_F(VolumetricsShaftGeometry, OneHeightMediumIsExactAndMixturesAreClose) {
     host.eye = {2, 1, 0};
-    settings.shaft_grid = 256;
+    settings.shaft_geometry.grid = 256;
     const GlobalMedium fog{.sigma_s = glm::vec3(0.1F), .anisotropy = 0.2F, .height = true, .base = 1, .falloff = 3};
     const GlobalMedium haze{.sigma_s = glm::vec3(0.01F), .sigma_a = glm::vec3(0.01F), .anisotropy = 0.6F};
     host.shadows = 0;
     host.global = {fog};
     EXPECT_LE(error().largest, 2e-3);
     host.global = {fog, haze};
-    settings.shaft_segments = 6;
+    settings.shaft_geometry.segments = 6;
     host.shadows = 0;
     const Error mixed = error();
     host.shadows = 3;
@@ -210,7 +210,7 @@ TEST_F(VolumetricsShaftGeometry, OneHeightMediumIsExactAndMixturesAreClose) {
     EXPECT_LE(mixed.rms, 0.01);
     EXPECT_LE(shadowed.rms, 0.015);
     host.shadows = 0;
-    settings.shaft_segments = 24;
+    settings.shaft_geometry.segments = 24;
     EXPECT_LE(error().largest, 3e-3);
 }
 
@@ -274,9 +274,9 @@ TEST_F(VolumetricsShaftLamps, ConesAndSpheresAreClosedForms) {
 TEST_F(VolumetricsShaftLamps, ShadowsConvergeWithTheParts) {
     host.shadows = 2;
     host.lights = {point_light({0.5F, 1, -3}, 1000, 30)};
-    settings.shaft_lamp_parts = 2;
+    settings.shaft_geometry.lamp_parts = 2;
     const double few = lamp_error();
-    settings.shaft_lamp_parts = 16;
+    settings.shaft_geometry.lamp_parts = 16;
     const double many = lamp_error();
     EXPECT_LE(many, 0.4 * few);
     EXPECT_LE(many, 0.03);
@@ -285,12 +285,12 @@ TEST_F(VolumetricsShaftLamps, ShadowsConvergeWithTheParts) {
 TEST_F(VolumetricsShaftLamps, MeanOverFramesIsTheShadowOfEachPart) {
     host.shadows = 2;
     host.lights = {point_light({0.5F, 1, -3}, 1000, 30)};
-    settings.shaft_lamp_parts = 4;
+    settings.shaft_geometry.lamp_parts = 4;
     const double fixed = lamp_error();
-    settings.noise = volumetrics::Noise::bayer;
-    settings.noise_time = volumetrics::NoiseTime::golden_ratio;
-    settings.temporal = volumetrics::Temporal::accumulate;
-    settings.temporal_clip = settings.temporal_reject = false;
+    settings.noise.kind = volumetrics::Noise::bayer;
+    settings.noise.time = volumetrics::NoiseTime::golden_ratio;
+    settings.temporal.mode = volumetrics::Temporal::accumulate;
+    settings.temporal.clip = settings.temporal.reject = false;
     for (; host.frame_index < 33; ++host.frame_index) (void)host.render(settings);
     EXPECT_LE(lamp_error(), 0.3 * fixed);
 }
@@ -302,12 +302,12 @@ TEST_F(VolumetricsShaftLamps, TheFilterTakesTheLampsVisibilityAlone) {
     host.sun_illuminance = glm::vec3(100);
     host.lights = {point_light({1, 2, -6}, 100, 6)};
     host.lights[0].cone_shadow.z = -1;  // it casts none
-    settings.noise = volumetrics::Noise::white;
+    settings.noise.kind = volumetrics::Noise::white;
     const Image sharp = host.render(settings).scattering;
-    settings.filter = volumetrics::Filter::gaussian15;
+    settings.filter.kernel = volumetrics::Filter::gaussian15;
     const Frame apart = host.render(settings);
     EXPECT_LT(largest_difference(apart.scattering, sharp), 3e-3) << "the lamp is seen from everywhere";
-    settings.reconstruct = volumetrics::Reconstruct::light;
+    settings.filter.reconstruct = volumetrics::Reconstruct::light;
     EXPECT_GT(largest_difference(host.render(settings).scattering, sharp), 0.1) << "edges of the sun's shafts";
     host.lights.clear();
     const Frame none = host.render(settings);
@@ -326,10 +326,10 @@ TEST_F(VolumetricsShaftLamps, LowerResolutionIsTheSameWhereLightIsSmooth) {
         host.eye = {-9, 0, 2};
         for (const glm::ivec2 size : low_resolution_sizes) {
             host.size = size;
-            settings.resolution = volumetrics::Resolution::full;
+            settings.resolution.size = volumetrics::Resolution::full;
             const Image full = host.render(settings).scattering;
             for (const auto resolution : {volumetrics::Resolution::half, volumetrics::Resolution::quarter}) {
-                settings.resolution = resolution;
+                settings.resolution.size = resolution;
                 const double tolerance = resolution == volumetrics::Resolution::half ? 0.03 : 0.06;
                 EXPECT_LT(largest_difference(host.render(settings).scattering, full), tolerance) << size.x << " px";
             }
@@ -344,8 +344,8 @@ TEST_F(VolumetricsShaftGeometry, ExtremesStayFinite) {
             for (const glm::vec3 sun :
                  {glm::vec3(0, -1, 0), glm::vec3(0, 0, -1), glm::vec3(0, 1e-3F, 1), glm::vec3(0, 1, 0)}) {
                 if (sigma == 1e3F) reconstruct_all(settings);
-                settings.max_distance = distance;
-                settings.shaft_grid = 16;
+                settings.march.max_distance = distance;
+                settings.shaft_geometry.grid = 16;
                 host.sun_direction = glm::normalize(sun);
                 host.sun_illuminance = glm::vec3(1e6F);
                 host.eye = {1e5F, 3, -1e5F};

@@ -9,10 +9,10 @@ namespace {
 TEST_F(VolumetricsTemporal, NothingStaleAfterAChange) {
     Settings first = settings(Temporal::accumulate);
     std::vector<Settings> changes(4, first);
-    changes[0].temporal = Temporal::ema;
-    changes[1].temporal_place = TemporalPlace::before;
+    changes[0].temporal.mode = Temporal::ema;
+    changes[1].temporal.place = TemporalPlace::before;
     changes[2].technique = "particles";
-    changes[3].resolution = volumetrics::Resolution::half;
+    changes[3].resolution.size = volumetrics::Resolution::half;
     for (const Settings& change : changes) {
         after(2, first);
         EXPECT_EQ(accepted(first), 1);
@@ -36,7 +36,7 @@ TEST_F(VolumetricsTemporal, ChangedLightIsForgotten) {
     for (const Temporal mode : {Temporal::ema, Temporal::accumulate})
         for (const bool clip : {false, true}) {
             Settings s = noisy(mode);
-            s.temporal_clip = clip;
+            s.temporal.clip = clip;
             const auto expect_forgotten = [&](glm::vec3 from, glm::vec3 to, float intensity) {
                 set_shadowed_lamp(from, 100);
                 const Image on = after(32, s).scattering;
@@ -68,7 +68,7 @@ TEST_F(VolumetricsTemporal, NoiseIsNoChange) {
             host.lights.clear();
             if (lamp) set_shadowed_lamp({-1, 0.5F, -5}, 400);
             Settings s = noisy(Temporal::accumulate);
-            s.filter = filter;
+            s.filter.kernel = filter;
             after(16, s);
             double mean = 0;
             for (int i = 0; i < 16; ++i) mean += accepted(s) / 16;

@@ -14,7 +14,7 @@ TEST_F(VolumetricsTemporal, AcceptanceFallsWithTheDistanceToWhatWasSeen) {
     for (const float scale : {0.0F, 1.0F, 4.0F})
         for (const float z : {8.0F, 10.0F, 15.0F}) {
             Settings s = settings(Temporal::acceptance);
-            s.temporal_scale = scale;
+            s.temporal.scale = scale;
             host.view_depth = [](int, int) { return 10.0F; };
             const double before = mean_of(after(2, s).scattering);
             host.view_depth = [z](int, int) { return z; };
@@ -30,7 +30,7 @@ TEST_F(VolumetricsTemporal, AcceptanceFallsWithTheDistanceToWhatWasSeen) {
             draw(without(s));
         }
     Settings s = settings(Temporal::acceptance);
-    s.temporal_scale = 100;
+    s.temporal.scale = 100;
     host.view_depth = [](int, int) { return 5.0F; };
     EXPECT_EQ(accepted(s), 0) << "nothing was before";
     for (const float walk : {0.004F, 0.008F}) {
@@ -78,7 +78,7 @@ TEST_F(VolumetricsTemporal, FloorsAtGrazingAnglesAreAccepted) {
         return ray.y < -0.003F ? -1.6F / ray.y * -ray.z : sky;
     };
     Settings s = settings(Temporal::acceptance);
-    s.temporal_scale = 16;
+    s.temporal.scale = 16;
     draw(s);
     for (int i = 1; i <= 4; ++i) {
         host.eye = glm::vec3(0.002F, 0, -0.004F) * static_cast<float>(i);
@@ -102,7 +102,7 @@ TEST_F(VolumetricsTemporal, HistoryFollowsTheCamera) {
     add_sun_behind_fence();
     const auto error = [&](Temporal mode, int pixels) {
         Settings s = settings(mode);
-        s.reconstruct = volumetrics::Reconstruct::light;  // in parts, light that goes out is gone at once
+        s.filter.reconstruct = volumetrics::Reconstruct::light;  // in parts, light that goes out is gone at once
         host.sun_illuminance = glm::vec3(1000);
         turn = 0;
         const Image before = draw(s).scattering;
@@ -132,7 +132,7 @@ TEST_F(VolumetricsTemporal, HistoryFollowsWhatMoves) {
     add_sun_behind_fence();
     for (const Temporal mode : {Temporal::ema, Temporal::acceptance}) {
         Settings s = settings(mode);
-        s.reconstruct = volumetrics::Reconstruct::light;
+        s.filter.reconstruct = volumetrics::Reconstruct::light;
         set_motion({0, 0});
         host.sun_illuminance = glm::vec3(1000);
         const Image before = draw(s).scattering;
@@ -155,7 +155,7 @@ TEST_F(VolumetricsTemporal, WhatComesIntoViewIsOfTheNewFrameOnly) {
     constexpr float walk = 0.00025F;
     host.vertical_fov = 2 * walk;
     Settings s = settings(Temporal::acceptance, 0.05F);
-    s.temporal_scale = 16;
+    s.temporal.scale = 16;
     const auto tangent = [&](int x) { return host.ray(x, 4).x / -host.ray(x, 4).z; };
     host.view_depth = [&](int x, int) { return host.eye.x + 0.5F * tangent(x) < 0 ? 0.5F : 1.0F; };
     after(4, s);
@@ -193,10 +193,10 @@ TEST_F(VolumetricsTemporal, FewSamplesSettleAndNeverGetWorse) {
     };
     host.shadows = 1;
     Settings s = noisy(Temporal::accumulate);
-    s.steps = 10;
-    s.temporal_scale = 16;
-    s.noise = volumetrics::Noise::bayer;
-    s.noise_time = volumetrics::NoiseTime::golden_ratio;
+    s.march.steps = 10;
+    s.temporal.scale = 16;
+    s.noise.kind = volumetrics::Noise::bayer;
+    s.noise.time = volumetrics::NoiseTime::golden_ratio;
     const auto place = [&](int i) {
         const auto t = static_cast<float>(i);
         set_shadowed_lamp({-2 + 0.05F * t, 6, -8}, 400, 40);

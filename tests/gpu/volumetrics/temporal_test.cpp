@@ -58,7 +58,7 @@ TEST_F(VolumetricsTemporal, ExponentialMeanFollowsAStep) {
 
 TEST_F(VolumetricsTemporal, AccumulateIsTheArithmeticMeanOfItsFirstFrames) {
     Settings s = settings(Temporal::accumulate);
-    s.temporal_frames = 8;
+    s.temporal.frames = 8;
     const double one = mean_of(draw(without(s)).scattering);
     double sum = 0, kept = 0;
     for (int k = 1; k <= 20; ++k) {
@@ -154,7 +154,7 @@ TEST_F(VolumetricsTemporal, NotANumberIsGoneAfterOneFrame) {
         for (const float value : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(),
                                   -std::numeric_limits<float>::infinity(), 1e30F}) {
             Settings s = settings(Temporal::accumulate);
-            s.temporal_clip = s.temporal_reject = on;
+            s.temporal.clip = s.temporal.reject = on;
             after(3, s);
             const Image expected = draw(without(s)).scattering;
             after(3, s);

@@ -51,10 +51,10 @@ TEST(FroxelGrid, SlicesRiseAndComeBackWhateverIsSet) {
     };
     for (int trial = 0; trial < 400; ++trial) {
         Settings settings;
-        settings.froxels_z = 8 + static_cast<int>(248 * unit(random));
-        settings.froxel_far = spread(4, 4096);
+        settings.froxels.z = 8 + static_cast<int>(248 * unit(random));
+        settings.froxels.far = spread(4, 4096);
         for (const auto member : froxel_curve_settings)
-            settings.*member =
+            settings.froxels.*member =
                 unit(random) < 0.3F ? (unit(random) < 0.5F ? 0.001F : 1000.0F) : spread(0.001F, 1000);
         Inputs inputs = view_inputs({spread(0.1F, 1e4F), spread(0.01F, 1e3F), 0});
         inputs.znear = spread(0.001F, 10);
@@ -70,7 +70,7 @@ TEST(FroxelGrid, SlicesRiseAndComeBackWhateverIsSet) {
                                     .half_extent = glm::vec3(spread(1e-3F, 1e3F)),
                                     .sigma_s = glm::vec3(spread(1e-6F, 1e4F))});
         for (const auto distribution : distributions) {
-            settings.froxel_distribution = distribution;
+            settings.froxels.distribution = distribution;
             expect_rising_round_trip(froxel_grid(inputs, settings));
             if (HasFatalFailure()) return;
         }
@@ -80,7 +80,7 @@ TEST(FroxelGrid, SlicesRiseAndComeBackWhateverIsSet) {
 TEST(FroxelCurve, GoesThroughTheSumsOfItsParts) {
     Settings settings;
     const float parts[] = {1, 3, 2, 0.5F, 4, 8, 0.25F, 1.25F};  // sum 20
-    for (std::size_t i = 0; i < 8; ++i) settings.*froxel_curve_settings[i] = parts[i];
+    for (std::size_t i = 0; i < 8; ++i) settings.froxels.*froxel_curve_settings[i] = parts[i];
     const std::array<float, 17> y = froxel_curve(settings);
     float sum = 0;
     for (std::size_t i = 0; i < 8; ++i) {
@@ -91,7 +91,7 @@ TEST(FroxelCurve, GoesThroughTheSumsOfItsParts) {
     }
     EXPECT_FLOAT_EQ(y[16], 1);
     settings = {};
-    for (const auto member : froxel_curve_settings) settings.*member = 7;
+    for (const auto member : froxel_curve_settings) settings.froxels.*member = 7;
     for (std::size_t k = 0; k <= 16; ++k)
         EXPECT_NEAR(froxel_curve(settings)[k], static_cast<float>(k) / 16, 1e-6F) << "a straight line";
 }
@@ -101,7 +101,7 @@ TEST(FroxelAuto, SlicesLieWhereTheMediumIs) {
     inputs.has_sun = true;
     inputs.local = {
         {.shape = Shape::box, .center = {0, 0, -30}, .half_extent = {2, 2, 4}, .sigma_s = glm::vec3(0.05F)}};
-    const Settings settings{.froxel_distribution = DepthDistribution::automatic};
+    const Settings settings{.froxels = {.distribution = DepthDistribution::automatic}};
     const FroxelGrid grid = froxel_grid(inputs, settings);
     EXPECT_LE(grid.view_depth(0.5F / 64), 26) << "the middle of the first slice, which begins at the eye";
     EXPECT_GT(grid.view_depth(0.5F / 64), 25);
@@ -109,18 +109,18 @@ TEST(FroxelAuto, SlicesLieWhereTheMediumIs) {
     EXPECT_LT(grid.farthest, 34.1F);
     // Nothing to see: any slices, up to the far end.
     inputs.local.clear();
-    EXPECT_NEAR(froxel_grid(inputs, settings).farthest, settings.froxel_far, 0.1F);
+    EXPECT_NEAR(froxel_grid(inputs, settings).farthest, settings.froxels.far, 0.1F);
     // A global medium is everywhere.
     inputs.local = {
         {.shape = Shape::box, .center = {0, 0, -30}, .half_extent = {2, 2, 4}, .sigma_s = glm::vec3(0.05F)}};
     inputs.global = {{.sigma_s = glm::vec3(0.001F)}};
     EXPECT_EQ(froxel_grid(inputs, settings).nearest, 0);
-    EXPECT_NEAR(froxel_grid(inputs, settings).farthest, settings.froxel_far, 0.1F);
+    EXPECT_NEAR(froxel_grid(inputs, settings).farthest, settings.froxels.far, 0.1F);
 }
 
 /// Of the slices, the share before a view depth.
 float share_before(const Inputs& inputs, float depth) {
-    return froxel_grid(inputs, {.froxel_distribution = DepthDistribution::automatic}).w(depth);
+    return froxel_grid(inputs, {.froxels = {.distribution = DepthDistribution::automatic}}).w(depth);
 }
 
 TEST(FroxelAuto, DenseMediaAndLampsDrawSlices) {
@@ -138,7 +138,7 @@ TEST(FroxelAuto, DenseMediaAndLampsDrawSlices) {
 
 // What the camera does in a frame moves no slice by more than 1 m for 0.1 m: light does not jump.
 TEST(FroxelAuto, SlicesMoveAsTheCameraDoes) {
-    const Settings settings{.froxel_distribution = DepthDistribution::automatic};
+    const Settings settings{.froxels = {.distribution = DepthDistribution::automatic}};
     Inputs inputs = view_inputs();
     inputs.has_sun = true;
     inputs.local = {{.center = {0, 0, -30}, .half_extent = {5, 2, 8}, .sigma_s = glm::vec3(0.05F)},

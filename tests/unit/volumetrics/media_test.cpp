@@ -82,8 +82,9 @@ TEST(VolumetricsMedia, StepsFillTheRayAndGrowByTheStrength) {
     for (const int steps : {1, 2, 8, 1024})
         for (const float strength : {0.01F, 1.0F, 10.0F}) {
             const shared::VolumetricsData data =
-                gather_media(inputs,
-                             {.steps = steps, .stepping = Stepping::exponential, .stepping_strength = strength})
+                gather_media(
+                    inputs,
+                    {.march = {.steps = steps, .stepping = Stepping::exponential, .stepping_strength = strength}})
                     .data;
             double sum = 0, length = data.first_step, last = 0;
             for (int i = 0; i < steps; ++i, length *= data.step_growth) sum += last = length;
@@ -97,7 +98,7 @@ TEST(VolumetricsMedia, FroxelBoundsHoldEveryPointInView) {
     std::mt19937 random(3);
     std::uniform_real_distribution<float> unit(-1, 1);
     for (const auto distribution : {DepthDistribution::linear, DepthDistribution::exponential}) {
-        const Settings settings{.froxel_distribution = distribution};
+        const Settings settings{.froxels = {.distribution = distribution}};
         for (int trial = 0; trial < 200; ++trial) {
             const Inputs inputs = view_inputs({unit(random), unit(random), unit(random)},
                                               {10 * unit(random), 5 * unit(random), 10 * unit(random)});
@@ -194,20 +195,20 @@ TEST(VolumetricsMedia, TheShuffledTileIsUncorrelated) {
 
 TEST(VolumetricsMedia, OnlyNoiseThatChangesInTimeKnowsTheFrame) {
     Settings settings;
-    settings.noise_time = NoiseTime::fixed;
+    settings.noise.time = NoiseTime::fixed;
     EXPECT_EQ(noise_uniform(settings, 7).z, 0U);
-    settings.noise_time = NoiseTime::r2;
+    settings.noise.time = NoiseTime::r2;
     EXPECT_EQ(noise_uniform(settings, 7), glm::uvec4(NOISE_BAYER, NOISE_TIME_R2, 7, 0));
-    settings.noise = Noise::none;
+    settings.noise.kind = Noise::none;
     EXPECT_EQ(noise_uniform(settings, 7).z, 0U);
     // A tile has no slices of its own.
-    settings.noise_time = NoiseTime::own;
-    settings.noise = Noise::white_tile;
+    settings.noise.time = NoiseTime::own;
+    settings.noise.kind = Noise::white_tile;
     EXPECT_EQ(noise_uniform(settings, 7).y, unsigned(NOISE_TIME_GOLDEN_RATIO));
-    settings.noise = Noise::fast;
+    settings.noise.kind = Noise::fast;
     EXPECT_EQ(noise_uniform(settings, 7), glm::uvec4(NOISE_FAST, NOISE_TIME_OWN, 7, 0));
-    settings.fast_space = SpatialKernel::box5;
-    settings.fast_time = TemporalKernel::box8;
+    settings.noise.fast_space = SpatialKernel::box5;
+    settings.noise.fast_time = TemporalKernel::box8;
     EXPECT_EQ(noise_texture_name(settings), "fast_box8_box5_128x128x32_r8.raw");
 }
 

@@ -77,10 +77,11 @@ TEST_F(VolumetricsSettings, NamesAreInEnumOrder) {
     std::vector<std::pair<std::string, std::string>> techniques;
     for (const std::string& name : technique_names()) techniques.emplace_back(name, name);
     expect_names("technique", s.technique, techniques);
-    expect_names("lamp_integration", s.lamp_integration,
+    expect_names("lamp_integration", s.light.lamp_integration,
                  {{"center", LampIntegration::center}, {"segment", LampIntegration::segment}});
-    expect_names("stepping", s.stepping, {{"uniform", Stepping::uniform}, {"exponential", Stepping::exponential}});
-    expect_names("noise", s.noise,
+    expect_names("stepping", s.march.stepping,
+                 {{"uniform", Stepping::uniform}, {"exponential", Stepping::exponential}});
+    expect_names("noise", s.noise.kind,
                  {{"none", Noise::none},
                   {"bayer", Noise::bayer},
                   {"white", Noise::white},
@@ -89,19 +90,19 @@ TEST_F(VolumetricsSettings, NamesAreInEnumOrder) {
                   {"blue", Noise::blue},
                   {"stbn", Noise::stbn},
                   {"fast", Noise::fast}});
-    expect_names("noise_time", s.noise_time,
+    expect_names("noise_time", s.noise.time,
                  {{"fixed", NoiseTime::fixed},
                   {"own", NoiseTime::own},
                   {"golden_ratio", NoiseTime::golden_ratio},
                   {"r2", NoiseTime::r2}});
-    expect_names("fast_space", s.fast_space,
+    expect_names("fast_space", s.noise.fast_space,
                  {{"gaussian1", SpatialKernel::gaussian1},
                   {"box3", SpatialKernel::box3},
                   {"box5", SpatialKernel::box5},
                   {"binomial3", SpatialKernel::binomial3},
                   {"binomial5", SpatialKernel::binomial5}});
-    expect_names("fast_time", s.fast_time, {{"ema", TemporalKernel::ema}, {"box8", TemporalKernel::box8}});
-    expect_names("filter", s.filter,
+    expect_names("fast_time", s.noise.fast_time, {{"ema", TemporalKernel::ema}, {"box8", TemporalKernel::box8}});
+    expect_names("filter", s.filter.kernel,
                  {{"none", Filter::none},
                   {"box3", Filter::box3},
                   {"box5", Filter::box5},
@@ -110,45 +111,45 @@ TEST_F(VolumetricsSettings, NamesAreInEnumOrder) {
                   {"binomial5", Filter::binomial5},
                   {"gaussian15", Filter::gaussian15},
                   {"uniform9", Filter::uniform9}});
-    expect_names("filter_depth", s.filter_depth,
+    expect_names("filter_depth", s.filter.depth,
                  {{"none", FilterDepth::none}, {"relative", FilterDepth::relative}, {"plane", FilterDepth::plane}});
-    expect_names("reconstruct", s.reconstruct,
+    expect_names("reconstruct", s.filter.reconstruct,
                  {{"light", Reconstruct::light}, {"visibility", Reconstruct::visibility}});
-    expect_names("resolution", s.resolution,
+    expect_names("resolution", s.resolution.size,
                  {{"full", Resolution::full}, {"half", Resolution::half}, {"quarter", Resolution::quarter}});
     expect_names(
-        "resolution_depth", s.resolution_depth,
+        "resolution_depth", s.resolution.depth,
         {{"min", DepthChoice::min}, {"max", DepthChoice::max}, {"checkerboard", DepthChoice::checkerboard}});
-    expect_names("upsample", s.upsample,
+    expect_names("upsample", s.resolution.upsample,
                  {{"nearest", Upsample::nearest},
                   {"bilinear", Upsample::bilinear},
                   {"bilateral", Upsample::bilateral},
                   {"nearest_depth", Upsample::nearest_depth}});
-    expect_names("temporal", s.temporal,
+    expect_names("temporal", s.temporal.mode,
                  {{"off", Temporal::off},
                   {"blend", Temporal::blend},
                   {"ema", Temporal::ema},
                   {"acceptance", Temporal::acceptance},
                   {"accumulate", Temporal::accumulate}});
-    expect_names("temporal_place", s.temporal_place,
+    expect_names("temporal_place", s.temporal.place,
                  {{"before", TemporalPlace::before}, {"after", TemporalPlace::after}});
-    expect_names("phase", s.phase,
+    expect_names("phase", s.light.phase,
                  {{"henyey_greenstein", PhaseFunction::henyey_greenstein},
                   {"schlick", PhaseFunction::schlick},
                   {"cornette_shanks", PhaseFunction::cornette_shanks},
                   {"double_henyey_greenstein", PhaseFunction::double_henyey_greenstein}});
-    expect_names("froxel_distribution", s.froxel_distribution,
+    expect_names("froxel_distribution", s.froxels.distribution,
                  {{"linear", DepthDistribution::linear},
                   {"exponential", DepthDistribution::exponential},
                   {"logarithmic", DepthDistribution::logarithmic},
                   {"curve", DepthDistribution::curve},
                   {"auto", DepthDistribution::automatic}});
-    expect_names("fog_mode", s.fog_mode,
+    expect_names("fog_mode", s.analytic_fog.mode,
                  {{"linear", FogMode::linear},
                   {"squared", FogMode::squared},
                   {"exponential", FogMode::exponential},
                   {"height", FogMode::height}});
-    expect_names("radial_occlusion", s.radial_occlusion,
+    expect_names("radial_occlusion", s.radial_shafts.occlusion,
                  {{"coverage", RadialOcclusion::coverage}, {"intervals", RadialOcclusion::intervals}});
     for (const Setting& row : settings_table().settings())
         EXPECT_EQ(row.choices.size(), named_[row.key]) << row.key;

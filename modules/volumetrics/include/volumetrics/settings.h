@@ -27,76 +27,122 @@ enum class DepthDistribution { linear, exponential, logarithmic, curve, automati
 enum class FogMode { linear, squared, exponential, height };
 enum class RadialOcclusion { coverage, intervals };
 
-/// Everything a person can choose. Ranges, units and help: `settings_table()`.
-struct Settings {
-    std::string technique = "ray_march";  ///< the name of one of those in technique.h
-    int steps = 8;
+// Everything that a person can choose, by technique and concern. What each does: `settings_table()`, whose keys are
+// those of presets and `--set`. Here: unit and range.
+
+/// Of rays, for all techniques that march or end them.
+struct MarchSettings {
+    int steps = 8;  ///< 1 … 1024 segments a ray
     Stepping stepping = Stepping::exponential;
-    float stepping_strength = 1.0f;
-    float max_distance = 256;
+    float stepping_strength = 1.0f;  ///< 0.01 … 10: logarithm of the last segment's length over the first's
+    float max_distance = 256;        ///< m, 1 … 100000; behind it global media go on in closed form
+};
+struct LightSettings {
     LampIntegration lamp_integration = LampIntegration::segment;
-    bool light_transmittance = true;
+    bool transmittance = true;  ///< media dim light on its way
     PhaseFunction phase = PhaseFunction::henyey_greenstein;
-    float phase_back_anisotropy = -0.5f;
-    float phase_back_weight = 0.2f;
-    Noise noise = Noise::bayer;
-    int noise_size = 8;
-    NoiseTime noise_time = NoiseTime::golden_ratio;
+    float back_anisotropy = -0.5f;  ///< -0.999 … 0, of double_henyey_greenstein
+    float back_weight = 0.2f;       ///< 0 … 1
+};
+/// Of techniques that sample.
+struct NoiseSettings {
+    Noise kind = Noise::bayer;
+    int size = 8;  ///< px: 2, 4, 8 or 16, of bayer and white_tile
+    NoiseTime time = NoiseTime::golden_ratio;
     SpatialKernel fast_space = SpatialKernel::gaussian1;
     TemporalKernel fast_time = TemporalKernel::ema;
-    Filter filter = Filter::gaussian15;
-    float filter_sigma = 2.0f;
-    bool filter_narrows = true;
-    FilterDepth filter_depth = FilterDepth::relative;
-    float filter_depth_falloff = 3.0f;
+};
+struct FilterSettings {
+    Filter kernel = Filter::gaussian15;
+    float sigma = 2.0f;  ///< px, 0.3 … 7, of gaussian15
+    bool narrows = true;
+    FilterDepth depth = FilterDepth::relative;
+    float depth_falloff = 3.0f;  ///< 0 … 100
     Reconstruct reconstruct = Reconstruct::visibility;
-    Resolution resolution = Resolution::full;
-    DepthChoice resolution_depth = DepthChoice::checkerboard;
+};
+struct ResolutionSettings {
+    Resolution size = Resolution::full;
+    DepthChoice depth = DepthChoice::checkerboard;
     Upsample upsample = Upsample::bilateral;
-    Temporal temporal = Temporal::accumulate;
-    TemporalPlace temporal_place = TemporalPlace::before;
-    float temporal_weight = 0.1f;
-    float temporal_scale = 16.0f;
-    int temporal_frames = 32;
-    bool temporal_clip = true;
-    bool temporal_reject = true;
-    int froxels_x = 160, froxels_y = 90, froxels_z = 64;
-    float froxel_far = 128;
-    DepthDistribution froxel_distribution = DepthDistribution::exponential;
-    float froxel_curve_1 = 0.3f, froxel_curve_2 = 0.5f, froxel_curve_3 = 0.7f, froxel_curve_4 = 1,
-          froxel_curve_5 = 1.5f, froxel_curve_6 = 2.5f, froxel_curve_7 = 6, froxel_curve_8 = 16;
-    int froxel_history = 128;
-    int sun_volume_size = 128;
-    int lamp_volume_size = 24;
-    int lamp_volume_count = 256;
-    int billboard_layers = 24;
-    int billboard_local_layers = 16;
-    float billboard_fade = 0.5f;
-    int particle_count = 65536;
-    int particle_local_count = 32768;
-    float particle_distance = 64;
-    float particle_size = 1;
-    float particle_drift = 0.1f;
-    FogMode fog_mode = FogMode::height;
-    RadialOcclusion radial_occlusion = RadialOcclusion::intervals;
-    int radial_samples = 32;
-    float radial_decay = 1.0f;
-    float radial_unseen = 1.0f;
-    int shaft_grid = 256;
-    int shaft_segments = 6;
-    int shaft_lamp_parts = 4;
-    int reference_steps = 1024;
-    int reference_lamp_samples = 16;
-    int reference_light_steps = 16;
+};
+struct TemporalSettings {
+    Temporal mode = Temporal::accumulate;
+    TemporalPlace place = TemporalPlace::before;
+    float weight = 0.1f;  ///< 0.01 … 1, least of the new frame, but for accumulate
+    float scale = 16.0f;  ///< 0 … 1000, of the relative distance that lowers acceptance
+    int frames = 32;      ///< 1 … 256, most that accumulate counts
+    bool clip = true, reject = true;
+};
+/// Of local media, of the technique froxel, and of the fog in front of transparents.
+struct FroxelSettings {
+    int x = 160, y = 90, z = 64;  ///< 8 … 512, 8 … 512, 8 … 256 froxels
+    float far = 128;              ///< m, 4 … 4096 of view depth
+    DepthDistribution distribution = DepthDistribution::exponential;
+    /// Relative thickness of the slices in each eighth of them: any positive numbers make a rising curve.
+    float curve_1 = 0.3f, curve_2 = 0.5f, curve_3 = 0.7f, curve_4 = 1, curve_5 = 1.5f, curve_6 = 2.5f, curve_7 = 6,
+          curve_8 = 16;
+    int history = 128;  ///< 0 … 256 frames, of the technique froxel
+};
+/// What local media leave of light.
+struct LightVolumeSettings {
+    int sun_size = 128;    ///< 8 … 512 texels across
+    int lamp_size = 24;    ///< 4 … 64 directions across, and distances
+    int lamp_count = 256;  ///< 1 … 1024
+};
+struct BillboardSettings {
+    int layers = 24, local_layers = 16;  ///< 1 … 256 of global media; 1 … 64 of each local medium
+    float fade = 0.5f;                   ///< m, 0 … 10
+};
+struct ParticleSettings {
+    int count = 65536, local_count = 32768;  ///< 512 … 1048576; 32 … 1048576
+    float distance = 64;                     ///< m, 4 … 4096
+    float size = 1;                          ///< 0.25 … 4 spacings
+    float drift = 0.1f;                      ///< m/s, 0 … 10
+};
+struct AnalyticFogSettings {
+    FogMode mode = FogMode::height;
+};
+struct RadialShaftSettings {
+    RadialOcclusion occlusion = RadialOcclusion::intervals;
+    int samples = 32;     ///< 1 … 512
+    float decay = 1.0f;   ///< 0.01 … 100
+    float unseen = 1.0f;  ///< 0 … 1
+};
+struct ShaftGeometrySettings {
+    int grid = 256;      ///< 16 … 1024 cells a side
+    int segments = 6;    ///< 1 … 64 a ray
+    int lamp_parts = 4;  ///< 1 … 64 a lamp and ray
+};
+struct ReferenceSettings {
+    int steps = 1024;       ///< 16 … 16384 a ray
+    int lamp_samples = 16;  ///< 1 … 64 a lamp and 16 steps
+    int light_steps = 16;   ///< 1 … 256 towards a light, in each soft or noisy local medium
+};
+
+struct Settings {
+    std::string technique = "ray_march";  ///< the name of one of those in technique.h
+    MarchSettings march = {};
+    LightSettings light = {};
+    NoiseSettings noise = {};
+    FilterSettings filter = {};
+    ResolutionSettings resolution = {};
+    TemporalSettings temporal = {};
+    FroxelSettings froxels = {};
+    LightVolumeSettings light_volumes = {};
+    BillboardSettings billboards = {};
+    ParticleSettings particles = {};
+    AnalyticFogSettings analytic_fog = {};
+    RadialShaftSettings radial_shafts = {};
+    ShaftGeometrySettings shaft_geometry = {};
+    ReferenceSettings reference = {};
 };
 
 [[nodiscard]] const SettingsTable& settings_table();
 
-/// The settings froxel_curve_1 … 8: relative thickness of the slices in each eighth of them. Any positive numbers
-/// make a rising curve.
+/// The eight of the curve.
 inline constexpr std::array froxel_curve_settings{
-    &Settings::froxel_curve_1, &Settings::froxel_curve_2, &Settings::froxel_curve_3, &Settings::froxel_curve_4,
-    &Settings::froxel_curve_5, &Settings::froxel_curve_6, &Settings::froxel_curve_7, &Settings::froxel_curve_8};
+    &FroxelSettings::curve_1, &FroxelSettings::curve_2, &FroxelSettings::curve_3, &FroxelSettings::curve_4,
+    &FroxelSettings::curve_5, &FroxelSettings::curve_6, &FroxelSettings::curve_7, &FroxelSettings::curve_8};
 /// View depth / froxel_far at 0, 1/16 … 16/16 of the slices, rising from 0 to 1: a monotone cubic through the sums
 /// of the eight settings.
 [[nodiscard]] std::array<float, 17> froxel_curve(const Settings& settings);

@@ -58,7 +58,7 @@ std::optional<int> standard_axis(const Frame& frame, const std::string& define) 
     if (define == "LOCAL_MEDIA") return !frame.media.local.empty();
     if (define == "HAS_SUN") return frame.inputs.has_sun;
     if (define == "LAMPS")
-        return frame.inputs.has_lamps ? 1 + static_cast<int>(frame.settings.lamp_integration) : 0;
+        return frame.inputs.has_lamps ? 1 + static_cast<int>(frame.settings.light.lamp_integration) : 0;
     if (define == "LIGHT_VOLUMES") return frame.resources.light_volumes.any();
     if (define == "CHROMATIC") return frame.media.chromatic;
     if (define == "COUNT_WORK") return frame.inputs.count_work;

@@ -17,7 +17,7 @@ void Resources::upload(const Settings& settings, FrameMedia& media) {
     if (media.local_froxels.empty()) {
         media_tiles = {};
     } else {
-        const glm::ivec3 froxels{settings.froxels_x, settings.froxels_y, settings.froxels_z};
+        const glm::ivec3 froxels{settings.froxels.x, settings.froxels.y, settings.froxels.z};
         const std::vector<std::uint32_t> tiles = live_tiles(media.local_froxels, froxels);
         media.live_tiles = tiles.size() / (1 + (media.local_froxels.size() + 31) / 32);
         media_tiles.assign(std::span<const std::uint32_t>(tiles), "volumetrics media tiles");

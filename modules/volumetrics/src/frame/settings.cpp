@@ -24,302 +24,303 @@ SettingsTable& growing_settings_table() {
                   {"technique", "Technique", "How light in the medium is computed; off costs nothing."},
                   technique_names, Effect::permutation)
             .integer(
-                &S::steps,
+                in(&S::march, &MarchSettings::steps),
                 {"steps", "Steps",
                  "Segments per ray; time grows in proportion, error falls where shadow edges and local media are."},
                 1, 1024, Effect::uniform, Scale::logarithmic)
-            .choice(&S::stepping,
+            .choice(in(&S::march, &MarchSettings::stepping),
                     {"stepping", "Stepping",
                      "Equal segments, or segments that grow with distance and so are finer near the eye."},
                     {"uniform", "exponential"}, Effect::uniform)
-            .real(&S::stepping_strength,
+            .real(in(&S::march, &MarchSettings::stepping_strength),
                   {"stepping_strength", "Stepping strength",
                    "Natural logarithm of the ratio of the last to the first segment of exponential stepping."},
                   0.01, 10)
-            .real(&S::max_distance,
+            .real(in(&S::march, &MarchSettings::max_distance),
                   {"max_distance", "Maximum distance",
                    "Length of the marched ray; behind it global media go on in closed form, without shadows or "
                    "lamps.",
                    "m"},
                   1, 100000, Scale::logarithmic)
-            .choice(&S::lamp_integration,
+            .choice(in(&S::light, &LightSettings::lamp_integration),
                     {"lamp_integration", "Lamp integration",
                      "Light of lamps at one point of each segment; or over the segment, with the closed form of "
                      "the inverse square, which costs more per lamp and needs far fewer steps."},
                     {"center", "segment"}, Effect::permutation)
             .boolean(
-                &S::light_transmittance,
+                in(&S::light, &LightSettings::transmittance),
                 {"light_transmittance", "Light transmittance",
                  "Light is attenuated by media on its way to the point or surface it reaches, by local ones as the "
                  "sun and lamp volumes hold them; a homogeneous global medium does not attenuate the sun."},
                 Effect::permutation)
-            .choice(&S::phase,
+            .choice(in(&S::light, &LightSettings::phase),
                     {"phase", "Phase function",
                      "Of all media but air: Henyey-Greenstein; Schlick's approximation of it, which is slightly "
                      "cheaper; Cornette-Shanks, which becomes Rayleigh's as the anisotropy goes to 0; or a second, "
                      "backward lobe of Henyey-Greenstein."},
                     {"henyey_greenstein", "schlick", "cornette_shanks", "double_henyey_greenstein"},
                     Effect::uniform)
-            .real(&S::phase_back_anisotropy,
+            .real(in(&S::light, &LightSettings::back_anisotropy),
                   {"phase_back_anisotropy", "Back lobe anisotropy",
                    "Mean cosine of the backward lobe of the phase function double_henyey_greenstein."},
                   -0.999, 0)
-            .real(&S::phase_back_weight,
+            .real(in(&S::light, &LightSettings::back_weight),
                   {"phase_back_weight", "Back lobe weight",
                    "Share of the light that double_henyey_greenstein scatters in its backward lobe."},
                   0, 1)
-            .choice(&S::noise,
+            .choice(in(&S::noise, &NoiseSettings::kind),
                     {"noise", "Noise",
                      "Where in its segments a pixel samples: the middle; the Bayer matrix; white noise, of each "
                      "pixel or of a shuffled tile; interleaved gradient noise; or textures of noise: blue, blue in "
                      "time too (stbn), or made for the filter that follows (fast)."},
                     {"none", "bayer", "white", "white_tile", "ign", "blue", "stbn", "fast"}, Effect::resource)
-            .integer_of(&S::noise_size,
+            .integer_of(in(&S::noise, &NoiseSettings::size),
                         {"noise_size", "Noise size",
                          "Side of the tile of bayer and white_tile; a larger one has more offsets and needs a "
                          "wider filter.",
                          "px"},
                         {2, 4, 8, 16}, Effect::resource)
-            .choice(&S::noise_time,
+            .choice(in(&S::noise, &NoiseSettings::time),
                     {"noise_time", "Noise in time",
                      "How the noise changes from frame to frame, for what averages frames: not at all; in its own "
                      "way (the next slice of a texture, other white noise, a shifted gradient; a tile by the "
                      "golden ratio); all offsets by the golden ratio; or all pixels by the R2 sequence times the "
                      "side of the tile, or times 128 px."},
                     {"fixed", "own", "golden_ratio", "r2"}, Effect::uniform)
-            .choice(&S::fast_space,
+            .choice(in(&S::noise, &NoiseSettings::fast_space),
                     {"fast_space", "FAST in space", "Spatial filter that the noise fast was made for."},
                     spatial_kernel_names(), Effect::resource)
-            .choice(&S::fast_time,
+            .choice(in(&S::noise, &NoiseSettings::fast_time),
                     {"fast_time", "FAST in time",
                      "Temporal filter that the noise fast was made for: an exponential mean of weight 0.1, or the "
                      "mean of 8 frames."},
                     temporal_kernel_names(), Effect::resource)
-            .choice(&S::filter,
+            .choice(in(&S::filter, &FilterSettings::kernel),
                     {"filter", "Filter",
                      "Spatial filter that takes noise away, in two passes: mean of 3 or 5 pixels each way, "
                      "Gaussian of sigma 1 in 7 taps, binomial of 3 or 5 taps, Gaussian of chosen sigma in 15 taps, "
                      "or mean of 9 (uniform9). What lies outside of the picture is left out."},
                     {"none", "box3", "box5", "gaussian1", "binomial3", "binomial5", "gaussian15", "uniform9"},
                     Effect::permutation)
-            .real(&S::filter_sigma,
+            .real(in(&S::filter, &FilterSettings::sigma),
                   {"filter_sigma", "Filter sigma",
                    "Standard deviation of the filter gaussian15; beyond 3.5 the 15 taps cut it off.", "px"},
                   0.3, 7)
-            .boolean(&S::filter_narrows,
+            .boolean(in(&S::filter, &FilterSettings::narrows),
                      {"filter_narrows", "Filter narrows",
                       "The filter is the narrower the more frames are in a pixel's mean, for less noise is left. "
                       "Where temporal is accumulate, before the filter."},
                      Effect::permutation)
-            .choice(&S::filter_depth,
+            .choice(in(&S::filter, &FilterSettings::depth),
                     {"filter_depth", "Filter and depth",
                      "Whether the filter stops at depth edges: not at all; where depth differs from the pixel's; "
                      "or where it also differs from the plane that the pixel lies in, so that grazing floors are "
                      "filtered."},
                     {"none", "relative", "plane"}, Effect::permutation)
-            .real(&S::filter_depth_falloff,
+            .real(in(&S::filter, &FilterSettings::depth_falloff),
                   {"filter_depth_falloff", "Filter depth falloff",
                    "How fast the weight falls with relative depth difference: it is 0 from a difference of 1 / "
                    "falloff on. Of the filter and of bilateral up-sampling."},
                   0, 100)
-            .choice(&S::reconstruct,
+            .choice(in(&S::filter, &FilterSettings::reconstruct),
                     {"reconstruct", "Reconstruct",
                      "What the filter, and a mean over frames before it, take from ray_march and from the lamps of "
                      "shaft_geometry: the light; or the visible share of it, times the unshadowed light of each "
                      "pixel, which has no noise."},
                     {"light", "visibility"}, Effect::permutation)
-            .choice(&S::resolution,
+            .choice(in(&S::resolution, &ResolutionSettings::size),
                     {"resolution", "Resolution",
                      "Pixels along each side that all techniques but analytic_fog and reference are computed at, "
                      "of froxel the application alone; time falls with the square."},
                     {"full", "half", "quarter"}, Effect::resource)
-            .choice(&S::resolution_depth,
+            .choice(in(&S::resolution, &ResolutionSettings::depth),
                     {"resolution_depth", "Resolution depth",
                      "Which depth of a block stands for it at a lower resolution: the nearest, the farthest, or "
                      "both in turn like a checkerboard."},
                     {"min", "max", "checkerboard"}, Effect::uniform)
-            .choice(&S::upsample,
+            .choice(in(&S::resolution, &ResolutionSettings::upsample),
                     {"upsample", "Up-sampling",
                      "From lower to full resolution: the nearest pixel; bilinear; bilinear without pixels of other "
                      "depths; or the pixel of the nearest depth, where depths differ."},
                     {"nearest", "bilinear", "bilateral", "nearest_depth"}, Effect::uniform)
-            .choice(&S::temporal,
+            .choice(in(&S::temporal, &TemporalSettings::mode),
                     {"temporal", "Temporal filter",
                      "Mean over frames: none; of the same pixel, ugly in motion; an exponential mean along "
                      "reprojected motion; the same, less of it the farther the surface found there is from this "
                      "one; or a mean that counts its frames."},
                     {"off", "blend", "ema", "acceptance", "accumulate"}, Effect::resource)
             .choice(
-                &S::temporal_place,
+                in(&S::temporal, &TemporalSettings::place),
                 {"temporal_place", "Temporal place", "Before the spatial filter and up-sampling, or after them."},
                 {"before", "after"}, Effect::resource)
-            .real(&S::temporal_weight,
+            .real(in(&S::temporal, &TemporalSettings::weight),
                   {"temporal_weight", "Temporal weight", "Least weight of the new frame, but for accumulate."},
                   0.01, 1)
-            .real(&S::temporal_scale,
+            .real(in(&S::temporal, &TemporalSettings::scale),
                   {"temporal_scale", "Temporal scale",
                    "Of acceptance and accumulate: what is kept falls by exp(-distance * scale), of this surface to "
                    "the one seen there before; the distance is relative to that of the nearer one from the camera. "
                    "0 keeps all.",
                    ""},
                   0, 1000)
-            .integer(&S::temporal_frames,
+            .integer(in(&S::temporal, &TemporalSettings::frames),
                      {"temporal_frames", "Temporal frames", "Most frames that accumulate counts."}, 1, 256,
                      Effect::uniform, Scale::logarithmic)
             .boolean(
-                &S::temporal_clip,
+                in(&S::temporal, &TemporalSettings::clip),
                 {"temporal_clip", "Temporal clip",
                  "Clips what is kept to the range of values around the pixel in the new frame, and of the noise "
                  "that temporal_reject has learnt. Light that few samples find gets darker. Not of blend."},
                 Effect::uniform)
-            .boolean(&S::temporal_reject,
+            .boolean(in(&S::temporal, &TemporalSettings::reject),
                      {"temporal_reject", "Temporal rejection",
                       "Forgets what is kept where the new frame differs from it by more than noise: lights, "
                       "shadows or media changed. Changes of sun, camera, global media and lamps that the host "
                       "tells count always. Not of blend."},
                      Effect::uniform)
-            .integer(&S::froxels_x,
+            .integer(in(&S::froxels, &FroxelSettings::x),
                      {"froxels_x", "Froxels across",
                       "Columns of froxels over the width: local media, and all light of the technique froxel; "
                       "memory and time grow in proportion."},
                      8, 512, Effect::resource)
-            .integer(&S::froxels_y, {"froxels_y", "Froxels up", "Columns of froxels over the height."}, 8, 512,
+            .integer(in(&S::froxels, &FroxelSettings::y),
+                     {"froxels_y", "Froxels up", "Columns of froxels over the height."}, 8, 512, Effect::resource)
+            .integer(in(&S::froxels, &FroxelSettings::z),
+                     {"froxels_z", "Froxel slices", "Slices of each column in view depth."}, 8, 256,
                      Effect::resource)
-            .integer(&S::froxels_z, {"froxels_z", "Froxel slices", "Slices of each column in view depth."}, 8, 256,
-                     Effect::resource)
-            .real(&S::froxel_far,
+            .real(in(&S::froxels, &FroxelSettings::far),
                   {"froxel_far", "Froxel far distance",
                    "View depth where the froxels end; behind it there are no local media, and in the technique "
                    "froxel neither lamps nor shadows.",
                    "m"},
                   4, 4096, Scale::logarithmic)
-            .choice(&S::froxel_distribution,
+            .choice(in(&S::froxels, &FroxelSettings::distribution),
                     {"froxel_distribution", "Froxel distribution",
                      "Slices of equal thickness; in proportion to their depth, from 1/256 of the far distance on; "
                      "or logarithmic, in between: equal near the eye, in proportion to depth far from it; a curve "
                      "of your own; or auto, where the media in view are and before they have dimmed."},
                     {"linear", "exponential", "logarithmic", "curve", "auto"}, Effect::uniform)
-            .real(&S::froxel_curve_1, curve_text(1), 0.001, 1000, Scale::logarithmic)
-            .real(&S::froxel_curve_2, curve_text(2), 0.001, 1000, Scale::logarithmic)
-            .real(&S::froxel_curve_3, curve_text(3), 0.001, 1000, Scale::logarithmic)
-            .real(&S::froxel_curve_4, curve_text(4), 0.001, 1000, Scale::logarithmic)
-            .real(&S::froxel_curve_5, curve_text(5), 0.001, 1000, Scale::logarithmic)
-            .real(&S::froxel_curve_6, curve_text(6), 0.001, 1000, Scale::logarithmic)
-            .real(&S::froxel_curve_7, curve_text(7), 0.001, 1000, Scale::logarithmic)
-            .real(&S::froxel_curve_8, curve_text(8), 0.001, 1000, Scale::logarithmic)
+            .real(in(&S::froxels, &FroxelSettings::curve_1), curve_text(1), 0.001, 1000, Scale::logarithmic)
+            .real(in(&S::froxels, &FroxelSettings::curve_2), curve_text(2), 0.001, 1000, Scale::logarithmic)
+            .real(in(&S::froxels, &FroxelSettings::curve_3), curve_text(3), 0.001, 1000, Scale::logarithmic)
+            .real(in(&S::froxels, &FroxelSettings::curve_4), curve_text(4), 0.001, 1000, Scale::logarithmic)
+            .real(in(&S::froxels, &FroxelSettings::curve_5), curve_text(5), 0.001, 1000, Scale::logarithmic)
+            .real(in(&S::froxels, &FroxelSettings::curve_6), curve_text(6), 0.001, 1000, Scale::logarithmic)
+            .real(in(&S::froxels, &FroxelSettings::curve_7), curve_text(7), 0.001, 1000, Scale::logarithmic)
+            .real(in(&S::froxels, &FroxelSettings::curve_8), curve_text(8), 0.001, 1000, Scale::logarithmic)
             .integer(
-                &S::froxel_history,
+                in(&S::froxels, &FroxelSettings::history),
                 {"froxel_history", "Froxel history",
                  "Technique froxel: frames over which the visibility of sun and lamps is averaged, sampled all "
                  "over the froxel; more is smoother, and moving shadows lag more. 0: none, which costs nothing."},
                 0, 256, Effect::resource)
-            .integer(&S::billboard_layers,
+            .integer(in(&S::billboards, &BillboardSettings::layers),
                      {"billboard_layers", "Billboard layers",
                       "Technique billboards: sheets of the global media up to the maximum distance, each lit at "
                       "every pixel; time grows in proportion."},
                      1, 256, Effect::uniform, Scale::logarithmic)
             .integer(
-                &S::billboard_local_layers,
+                in(&S::billboards, &BillboardSettings::local_layers),
                 {"billboard_local_layers", "Billboard local layers",
                  "Technique billboards: sheets of each local medium; time grows in proportion where it is seen."},
                 1, 64, Effect::uniform, Scale::logarithmic)
-            .real(&S::billboard_fade,
+            .real(in(&S::billboards, &BillboardSettings::fade),
                   {"billboard_fade", "Billboard fade",
                    "Technique billboards: density falls to 0 over this distance to the eye, so that no sheet is "
                    "seen edge on or pops; 0 is none.",
                    "m"},
                   0, 10)
-            .integer(&S::particle_count,
+            .integer(in(&S::particles, &ParticleSettings::count),
                      {"particle_count", "Particles",
                       "Technique particles: of the global media, round the eye, a tenth of them in view; noise "
                       "falls and detail grows with it, time grows in proportion."},
                      512, 1048576, Effect::resource, Scale::logarithmic)
-            .integer(&S::particle_local_count,
+            .integer(in(&S::particles, &ParticleSettings::local_count),
                      {"particle_local_count", "Local particles",
                       "Technique particles: of all local media in view together, by volume and extinction, at "
                       "least 32 each; time grows in proportion."},
                      32, 1048576, Effect::resource, Scale::logarithmic)
-            .real(&S::particle_distance,
+            .real(in(&S::particles, &ParticleSettings::distance),
                   {"particle_distance", "Particle distance",
                    "Technique particles: where those of the global media end, behind them is the closed form "
                    "without shadows or lamps; particles are as fine as it is short.",
                    "m"},
                   4, 4096, Scale::logarithmic)
-            .real(&S::particle_size,
+            .real(in(&S::particles, &ParticleSettings::size),
                   {"particle_size", "Particle size",
                    "Technique particles: radius in units of their spacing; larger are softer and less noisy, and "
                    "cost the square of it."},
                   0.25, 4)
-            .real(&S::particle_drift,
+            .real(in(&S::particles, &ParticleSettings::drift),
                   {"particle_drift", "Particle drift",
                    "Technique particles: how fast they move; a function of time, so that a time has one picture.",
                    "m/s"},
                   0, 10)
-            .choice(&S::fog_mode,
+            .choice(in(&S::analytic_fog, &AnalyticFogSettings::mode),
                     {"fog_mode", "Fog mode",
                      "Technique analytic_fog: transmittance that falls linearly with distance, as a Gaussian of "
                      "it, or exponentially, with the media as they are at the eye; or exponential with their "
                      "height profiles."},
                     {"linear", "squared", "exponential", "height"}, Effect::uniform)
-            .choice(&S::radial_occlusion,
+            .choice(in(&S::radial_shafts, &RadialShaftSettings::occlusion),
                     {"radial_occlusion", "Radial occlusion",
                      "Technique radial_shafts: the share of samples towards the sun on screen that something "
                      "covers; or which parts of the view ray the surfaces seen there shadow."},
                     {"coverage", "intervals"}, Effect::permutation)
-            .integer(&S::radial_samples,
+            .integer(in(&S::radial_shafts, &RadialShaftSettings::samples),
                      {"radial_samples", "Radial samples",
                       "Technique radial_shafts: depths read between a pixel and the sun on screen."},
                      1, 512, Effect::uniform, Scale::logarithmic)
-            .real(&S::radial_decay,
+            .real(in(&S::radial_shafts, &RadialShaftSettings::decay),
                   {"radial_decay", "Radial decay",
                    "Technique radial_shafts, coverage: weight of a sample at the sun relative to one at the pixel, "
                    "exponential in between."},
                   0.01, 100, Scale::logarithmic)
-            .real(&S::radial_unseen,
+            .real(in(&S::radial_shafts, &RadialShaftSettings::unseen),
                   {"radial_unseen", "Radial unseen",
                    "Technique radial_shafts: share of the sun's light that arrives where the sun is out of the "
                    "picture, and nothing is known about its way: 1 outdoors, about 0 in a closed room."},
                   0, 1)
-            .integer(&S::sun_volume_size,
+            .integer(in(&S::light_volumes, &LightVolumeSettings::sun_size),
                      {"sun_volume_size", "Sun volume size",
                       "Texels across the box round all local media, which holds what they leave of sunlight, and "
                       "half as many along it; made anew only when media or sun change."},
                      8, 512, Effect::resource, Scale::logarithmic)
-            .integer(&S::lamp_volume_size,
+            .integer(in(&S::light_volumes, &LightVolumeSettings::lamp_size),
                      {"lamp_volume_size", "Lamp volume size",
                       "Directions across, and distances, of the volume that holds what local media leave of the "
                       "light of one lamp."},
                      4, 64, Effect::resource, Scale::logarithmic)
             .integer(
-                &S::lamp_volume_count,
+                in(&S::light_volumes, &LightVolumeSettings::lamp_count),
                 {"lamp_volume_count", "Lamp volumes",
                  "Most lamps whose light local media attenuate, those whose range is nearest to the eye first."},
                 1, 1024, Effect::resource, Scale::logarithmic)
-            .integer(&S::shaft_grid,
+            .integer(in(&S::shaft_geometry, &ShaftGeometrySettings::grid),
                      {"shaft_grid", "Shaft grid",
                       "Technique shaft_geometry: cells per side of the sun's mesh; edges of shafts are as fine as "
                       "a cell, time grows with the square."},
                      16, 1024, Effect::resource, Scale::logarithmic)
-            .integer(&S::shaft_segments,
+            .integer(in(&S::shaft_geometry, &ShaftGeometrySettings::segments),
                      {"shaft_segments", "Shaft segments",
                       "Technique shaft_geometry: closed forms per ray in a mixture of media; one homogeneous or "
                       "height medium alone needs one."},
                      1, 64, Effect::uniform, Scale::logarithmic)
-            .integer(&S::shaft_lamp_parts,
+            .integer(in(&S::shaft_geometry, &ShaftGeometrySettings::lamp_parts),
                      {"shaft_lamp_parts", "Shaft lamp parts",
                       "Technique shaft_geometry: closed forms, each with its own shadow, per lamp and ray."},
                      1, 64, Effect::uniform, Scale::logarithmic)
-            .integer(&S::reference_steps,
+            .integer(in(&S::reference, &ReferenceSettings::steps),
                      {"reference_steps", "Reference steps",
                       "Samples per ray of the technique reference, where its error falls in proportion; taken as a "
                       "multiple of 16."},
                      16, 16384, Effect::uniform, Scale::logarithmic)
-            .integer(&S::reference_lamp_samples,
+            .integer(in(&S::reference, &ReferenceSettings::lamp_samples),
                      {"reference_lamp_samples", "Reference lamp samples",
                       "Samples per lamp and 16 steps of the technique reference, at equal angles as seen from the "
                       "lamp."},
                      1, 64, Effect::uniform, Scale::logarithmic)
-            .integer(&S::reference_light_steps,
+            .integer(in(&S::reference, &ReferenceSettings::light_steps),
                      {"reference_light_steps", "Reference light steps",
                       "Samples of the technique reference between a light and a point, in each local medium that "
                       "is soft, noisy or has a height profile."},

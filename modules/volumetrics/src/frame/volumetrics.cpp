@@ -76,7 +76,7 @@ LightTransmittance Volumetrics::add_light_passes(PassList& passes, const Inputs&
     LightVolumes& volumes = impl_->resources.light_volumes;
     impl_->light_passes_added = true;
     if (!impl_->media.attenuating.empty()) volumes.add_passes(passes, impl_->shaders, inputs);
-    const bool on = settings.light_transmittance && technique(settings.technique).add;
+    const bool on = settings.light.transmittance && technique(settings.technique).add;
     return {.any = on && (impl_->media.has_global || volumes.any()),
             .light_volumes = volumes.any(),
             .sun_volume = volumes.sun(),

@@ -120,7 +120,7 @@ void LampVolumes::prepare(const Inputs& inputs, const Settings& settings, FrameM
             cones.push_back(cone_of(medium.medium, lamp.position));
             hash.add(medium.packed);
         }
-        wanted.window = window_of(lamp, cones, settings.lamp_volume_size);
+        wanted.window = window_of(lamp, cones, settings.light_volumes.lamp_size);
         hash.add(wanted.end);
         hash.add(wanted.window);
         wanted.key = hash.value();
@@ -129,10 +129,10 @@ void LampVolumes::prepare(const Inputs& inputs, const Settings& settings, FrameM
     }
     if (all.empty()) return release();
     std::ranges::stable_sort(all, {}, &Wanted::eye_distance);
-    const auto limit = static_cast<std::size_t>(settings.lamp_volume_count);
+    const auto limit = static_cast<std::size_t>(settings.light_volumes.lamp_count);
     left_out_ = all.size() - std::min(all.size(), limit);
     all.resize(all.size() - left_out_);
-    allocate(all.size(), settings.lamp_volume_size, media.chromatic);
+    allocate(all.size(), settings.light_volumes.lamp_size, media.chromatic);
 
     for (Slot& slot : slots_) slot.used = std::ranges::find(all, slot.key, &Wanted::key) != all.end();
     const auto last = std::ranges::max(all, {}, [](const Wanted& w) { return w.lamp.index; }).lamp.index;
@@ -149,7 +149,7 @@ void LampVolumes::prepare(const Inputs& inputs, const Settings& settings, FrameM
     if (entries != entries_) table_.assign(std::span<const glm::vec4>(entries), "volumetrics lamp volume table");
     entries_ = entries;
     const glm::vec2 atlas = texture_.size();
-    media.data.lamp_volumes = {settings.lamp_volume_size, settings.lamp_volume_size, 1.0F / atlas};
+    media.data.lamp_volumes = {settings.light_volumes.lamp_size, settings.light_volumes.lamp_size, 1.0F / atlas};
 }
 
 bool LampVolumes::stale() const {

@@ -47,7 +47,7 @@ bool same(const std::vector<shared::LocalMedium>& before, const std::vector<Atte
 
 void SunVolume::prepare(const Inputs& inputs, const Settings& settings, FrameMedia& media) {
     if (!inputs.has_sun) return release();
-    const int across = settings.sun_volume_size;
+    const int across = settings.light_volumes.sun_size;
     const glm::ivec3 size{across, across, std::max(across / 2, 2)};
     const bool resized =
         !texture_ || texture_.desc().size != size || (texture_.desc().format == GL_RGBA16F) != media.chromatic;

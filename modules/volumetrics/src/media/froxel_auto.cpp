@@ -89,7 +89,7 @@ double clamped_positive(double value) {
 }  // namespace
 
 DepthTable automatic_depths(const Inputs& inputs, const Settings& settings) {
-    const double far = double(settings.froxel_far);
+    const double far = double(settings.froxels.far);
     const std::vector<Layer> layers = layers_in_view(inputs, far);
     const bool global = global_at(inputs, 0).x + global_at(inputs, 0).y > 0;
     double nearest = 0, farthest = far;
@@ -130,7 +130,7 @@ DepthTable automatic_depths(const Inputs& inputs, const Settings& settings) {
             depths[std::size_t(k)] =
                 float(edge(i) + (edge(i + 1) - edge(i)) * (k / 16.0 - before) / share[std::size_t(i)]);
     // The first slice holds all from the eye on, with the medium of its middle: that has to lie before the medium.
-    const float length = (depths[1] - depths[0]) / (1 - 8.0F / float(std::max(settings.froxels_z, 16)));
+    const float length = (depths[1] - depths[0]) / (1 - 8.0F / float(std::max(settings.froxels.z, 16)));
     depths.front() = std::max(depths[1] - 1.05F * length, 0.0F);
     return depths;
 }

@@ -14,7 +14,7 @@ const ProgramRegistry::Registration registration(program);
 }  // namespace
 
 TextureRef add_froxel_columns(Frame& frame) {
-    const glm::ivec2 count{frame.settings.froxels_x, frame.settings.froxels_y};
+    const glm::ivec2 count{frame.settings.froxels.x, frame.settings.froxels.y};
     TextureRef columns = frame.passes.create("volumetrics/froxel_columns", {.format = GL_R32F, .size = {count, 1}});
     frame.add({.name = "volumetrics/froxel_columns",
                .program = frame.program(program),

@@ -28,7 +28,7 @@ void set_table(const DepthTable& depths, FroxelGrid& grid) {
 
 DepthTable curve_depths(const Settings& settings) {
     DepthTable depths = froxel_curve(settings);
-    for (float& depth : depths) depth *= settings.froxel_far;
+    for (float& depth : depths) depth *= settings.froxels.far;
     return depths;
 }
 
@@ -46,21 +46,21 @@ float FroxelGrid::view_depth(float w) const {
 }
 
 FroxelGrid froxel_grid(const Inputs& inputs, const Settings& settings) {
-    FroxelGrid grid{.size = {settings.froxels_x, settings.froxels_y, settings.froxels_z},
+    FroxelGrid grid{.size = {settings.froxels.x, settings.froxels.y, settings.froxels.z},
                     .distribution = glsl::FROXEL_LINEAR,
                     .nearest = inputs.znear,
-                    .farthest = settings.froxel_far};
-    switch (settings.froxel_distribution) {
+                    .farthest = settings.froxels.far};
+    switch (settings.froxels.distribution) {
         case DepthDistribution::linear:
             break;
         case DepthDistribution::exponential:
             grid.distribution = glsl::FROXEL_EXPONENTIAL;
             // Slices in proportion to their depth would crowd at a near plane of centimetres.
-            grid.nearest = std::max(inputs.znear, settings.froxel_far / 256);
+            grid.nearest = std::max(inputs.znear, settings.froxels.far / 256);
             break;
         case DepthDistribution::logarithmic:
             grid.distribution = glsl::FROXEL_LOGARITHMIC;
-            grid.nearest = settings.froxel_far / 32;
+            grid.nearest = settings.froxels.far / 32;
             break;
         case DepthDistribution::curve:
             set_table(curve_depths(settings), grid);
@@ -69,7 +69,7 @@ FroxelGrid froxel_grid(const Inputs& inputs, const Settings& settings) {
             set_table(automatic_depths(inputs, settings), grid);
             return grid;
     }
-    grid.farthest = std::max(settings.froxel_far, 2 * grid.nearest);
+    grid.farthest = std::max(settings.froxels.far, 2 * grid.nearest);
     return grid;
 }
 
@@ -79,9 +79,10 @@ FroxelGrid froxel_grid(const Inputs& inputs, const Settings& settings) {
 std::array<float, 17> froxel_curve(const Settings& settings) {
     constexpr std::size_t n = froxel_curve_settings.size();
     double total = 0;
-    for (const auto member : froxel_curve_settings) total += static_cast<double>(settings.*member);
+    for (const auto member : froxel_curve_settings) total += static_cast<double>(settings.froxels.*member);
     std::array<double, n> d{};
-    for (std::size_t i = 0; i < n; ++i) d[i] = static_cast<double>(settings.*froxel_curve_settings[i]) / total;
+    for (std::size_t i = 0; i < n; ++i)
+        d[i] = static_cast<double>(settings.froxels.*froxel_curve_settings[i]) / total;
     const auto slope = [&](std::size_t i) {
         if (i == 0 || i == n) return i == 0 ? d.front() : d.back();
         return 2 * d[i - 1] * d[i] / (d[i - 1] + d[i]);

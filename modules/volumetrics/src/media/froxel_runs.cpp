@@ -25,8 +25,9 @@ TextureRef add_froxel_runs(Frame& frame, const FroxelMedia& froxels) {
     TextureRef runs =
         frame.passes.create("volumetrics/froxel_runs", {.format = GL_RG32UI, .size = {size.x * words, size.y, 1}});
     frame.add({.name = "volumetrics/froxel_runs",
-               .program = frame.program(program, {{"EMISSION", frame.media.local_emission},
-                                                  {"LIGHT_VOLUMES", static_cast<bool>(frame.resources.light_volumes.sun())}}),
+               .program = frame.program(
+                   program, {{"EMISSION", frame.media.local_emission},
+                             {"LIGHT_VOLUMES", static_cast<bool>(frame.resources.light_volumes.sun())}}),
                .sources = {{froxels.columns}, {froxels.scattering}, {froxels.extinction}, {froxels.emission}},
                .images = {{&runs}},
                .light_volumes = true,

@@ -18,7 +18,7 @@ FroxelMedia add_inject_media(Frame& frame) {
     const Settings& settings = frame.settings;
     const gl::TextureDesc desc{.kind = gl::TextureKind::d3,
                                .format = GL_RGBA16F,
-                               .size = {settings.froxels_x, settings.froxels_y, settings.froxels_z}};
+                               .size = {settings.froxels.x, settings.froxels.y, settings.froxels.z}};
     FroxelMedia froxels;
     froxels.columns = add_froxel_columns(frame);
     froxels.scattering = frame.passes.create("volumetrics/froxel_scattering", desc);

@@ -150,14 +150,14 @@ void add_local(const Inputs& inputs, const Settings& settings, FrameMedia& media
 /// Segment i of N has the length first * ratio^i of the ray, which sums to 1; the last is ratio^(N-1) = e^strength
 /// times the first. Strength 0 is uniform.
 void set_stepping(const Settings& settings, shared::VolumetricsData& data) {
-    const double n = settings.steps;
+    const double n = settings.march.steps;
     double first = 1 / n, ratio = 1;
-    if (settings.stepping == Stepping::exponential && settings.steps > 1) {
-        const double growth = settings.stepping_strength / (n - 1);
+    if (settings.march.stepping == Stepping::exponential && settings.march.steps > 1) {
+        const double growth = settings.march.stepping_strength / (n - 1);
         ratio = std::exp(growth);
         first = std::expm1(growth) / std::expm1(growth * n);
     }
-    data.max_distance = settings.max_distance;
+    data.max_distance = settings.march.max_distance;
     data.first_step = static_cast<float>(first);
     data.step_growth = static_cast<float>(ratio);
 }
@@ -195,25 +195,25 @@ FrameMedia gather_media(const Inputs& inputs, const Settings& settings) {
     add_global(inputs, media);
     if (desc.traits.local_media) {
         add_local(inputs, settings, media);
-        if (settings.light_transmittance && (inputs.has_sun || inputs.has_lamps)) add_attenuating(inputs, media);
+        if (settings.light.transmittance && (inputs.has_sun || inputs.has_lamps)) add_attenuating(inputs, media);
     }
     if (media.empty() && media.attenuating.empty()) return media;
     set_view(inputs, settings, media.data);
     set_stepping(settings, media.data);
     media.data.coloured_froxels = media.chromatic && !media.local.empty() ? 1U : 0U;
     media.data.local_emission = media.local_emission ? 1U : 0U;
-    media.data.steps = static_cast<unsigned>(settings.steps);
+    media.data.steps = static_cast<unsigned>(settings.march.steps);
     media.data.noise_side = static_cast<unsigned>(noise_side(settings));
     media.data.noise = noise_uniform(settings, inputs.frame_index);
-    media.data.phase = phase_option(settings.phase);
-    media.data.back_anisotropy = settings.phase_back_anisotropy;
-    media.data.back_weight = settings.phase_back_weight;
-    media.data.light_transmittance = settings.light_transmittance ? 1U : 0U;
+    media.data.phase = phase_option(settings.light.phase);
+    media.data.back_anisotropy = settings.light.back_anisotropy;
+    media.data.back_weight = settings.light.back_weight;
+    media.data.light_transmittance = settings.light.transmittance ? 1U : 0U;
     media.data.has_ambient = inputs.has_ambient ? 1U : 0U;
-    media.data.fog_mode = static_cast<unsigned>(settings.fog_mode);
-    media.data.radial_samples = static_cast<float>(settings.radial_samples);
-    media.data.radial_decay = settings.radial_decay;
-    media.data.radial_unseen = settings.radial_unseen;
+    media.data.fog_mode = static_cast<unsigned>(settings.analytic_fog.mode);
+    media.data.radial_samples = static_cast<float>(settings.radial_shafts.samples);
+    media.data.radial_decay = settings.radial_shafts.decay;
+    media.data.radial_unseen = settings.radial_shafts.unseen;
     return media;
 }
 

@@ -26,7 +26,7 @@ void add_depth_downsample(Frame& frame) {
                .program = frame.program(program),
                .sources = {{frame.inputs.depth}},
                .targets = {&frame.depth},
-               .set = [factor, choice = static_cast<int>(frame.settings.resolution_depth)](
+               .set = [factor, choice = static_cast<int>(frame.settings.resolution.depth)](
                           const PassContext&, const gl::Program& shader) {
                    shader.set("factor", factor);
                    shader.set("choice", choice);

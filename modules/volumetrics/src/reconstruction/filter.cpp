@@ -9,12 +9,11 @@ namespace {
 /// In one pass of each direction; more take another.
 constexpr std::size_t most_textures = 3;
 
-const ProgramDesc program{
-    .name = "volumetrics/filter",
-    .stages = {{GL_VERTEX_SHADER, "shaders/lib/fullscreen.vert"},
-               {GL_FRAGMENT_SHADER, "shaders/volumetrics/reconstruction/filter.frag"}},
-    .axes = {{"DEPTH", {0, 1, 2}}, {"TEXTURES", {1, 2, 3}}, {"COUNT_WORK", {0, 1}}},
-    .valid = {}};
+const ProgramDesc program{.name = "volumetrics/filter",
+                          .stages = {{GL_VERTEX_SHADER, "shaders/lib/fullscreen.vert"},
+                                     {GL_FRAGMENT_SHADER, "shaders/volumetrics/reconstruction/filter.frag"}},
+                          .axes = {{"DEPTH", {0, 1, 2}}, {"TEXTURES", {1, 2, 3}}, {"COUNT_WORK", {0, 1}}},
+                          .valid = {}};
 const ProgramRegistry::Registration registration(program);
 
 /// One direction: 2 radius + 1 taps. Weights by distance from the centre, px, up to a common factor.
@@ -34,7 +33,7 @@ Kernel gaussian(int radius, float sigma) {
 }
 
 Kernel kernel_of(const Settings& settings) {
-    switch (settings.filter) {
+    switch (settings.filter.kernel) {
         case Filter::none:
             return {0, {1}};
         case Filter::box3:
@@ -48,7 +47,7 @@ Kernel kernel_of(const Settings& settings) {
         case Filter::binomial5:
             return {2, {6, 4, 1}};
         case Filter::gaussian15:
-            return gaussian(7, settings.filter_sigma);
+            return gaussian(7, settings.filter.sigma);
         case Filter::uniform9:
             return {4, {1, 1, 1, 1, 1}};
     }
@@ -69,7 +68,7 @@ float variance(const Kernel& kernel) {
 void add_direction(Frame& frame, Textures textures, TextureRef frames, const std::string& name,
                    glm::vec2 direction) {
     const Settings& settings = frame.settings;
-    const bool by_depth = settings.filter_depth != FilterDepth::none;
+    const bool by_depth = settings.filter.depth != FilterDepth::none;
     std::vector<Pass::Source> sources{{by_depth ? frame.depth : TextureRef{}}, {frames}};
     for (TextureRef* texture : textures) {
         sources.push_back({*texture});
@@ -78,10 +77,10 @@ void add_direction(Frame& frame, Textures textures, TextureRef frames, const std
     // Neighbours of a checkerboard hold the nearest and the farthest depth of their blocks: a plane is one two
     // pixels apart, and what lies between is off it by as much as it changes within a block.
     const bool alternating =
-        resolution_factor(settings) > 1 && settings.resolution_depth == DepthChoice::checkerboard;
+        resolution_factor(settings) > 1 && settings.resolution.depth == DepthChoice::checkerboard;
     const auto set = [=, narrows = static_cast<bool>(frames), texel = 1.0F / glm::vec2(frame.size),
                       kernel = kernel_of(settings),
-                      falloff = settings.filter_depth_falloff](const PassContext&, const gl::Program& shader) {
+                      falloff = settings.filter.depth_falloff](const PassContext&, const gl::Program& shader) {
         const std::array<float, 8>& w = kernel.weights;
         shader.set("radius", kernel.radius);
         shader.set("weights_0_3", glm::vec4(w[0], w[1], w[2], w[3]));
@@ -94,7 +93,7 @@ void add_direction(Frame& frame, Textures textures, TextureRef frames, const std
         shader.set("slope_tolerance", alternating ? 1.0F : 0.0F);
     };
     frame.add({.name = name,
-               .program = frame.program(program, {{"DEPTH", static_cast<int>(settings.filter_depth)},
+               .program = frame.program(program, {{"DEPTH", static_cast<int>(settings.filter.depth)},
                                                   {"TEXTURES", static_cast<int>(textures.size())}}),
                .sources = sources,
                .targets = {textures.begin(), textures.end()},

@@ -76,35 +76,35 @@ std::vector<float> noise_tile(Noise noise, int size) {
 }
 
 int noise_side(const Settings& settings) {
-    return is_tile(settings.noise) ? settings.noise_size : 1;
+    return is_tile(settings.noise.kind) ? settings.noise.size : 1;
 }
 
 glm::uvec4 noise_uniform(const Settings& settings, std::uint32_t frame_index) {
-    NoiseTime time = settings.noise == Noise::none ? NoiseTime::fixed : settings.noise_time;
-    if (time == NoiseTime::own && is_tile(settings.noise)) time = NoiseTime::golden_ratio;
-    return {static_cast<unsigned>(settings.noise), static_cast<unsigned>(time),
+    NoiseTime time = settings.noise.kind == Noise::none ? NoiseTime::fixed : settings.noise.time;
+    if (time == NoiseTime::own && is_tile(settings.noise.kind)) time = NoiseTime::golden_ratio;
+    return {static_cast<unsigned>(settings.noise.kind), static_cast<unsigned>(time),
             time == NoiseTime::fixed ? 0U : frame_index, 0U};
 }
 
 std::string noise_texture_name(const Settings& settings) {
     constexpr const char* suffix = "_128x128x32_r8.raw";
-    if (settings.noise == Noise::blue) return std::string("blue") + suffix;
-    if (settings.noise == Noise::stbn) return std::string("stbn") + suffix;
-    if (settings.noise != Noise::fast) return "";
-    return fmt::format("fast_{}_{}{}", temporal_kernel_names()[static_cast<std::size_t>(settings.fast_time)],
-                       spatial_kernel_names()[static_cast<std::size_t>(settings.fast_space)], suffix);
+    if (settings.noise.kind == Noise::blue) return std::string("blue") + suffix;
+    if (settings.noise.kind == Noise::stbn) return std::string("stbn") + suffix;
+    if (settings.noise.kind != Noise::fast) return "";
+    return fmt::format("fast_{}_{}{}", temporal_kernel_names()[static_cast<std::size_t>(settings.noise.fast_time)],
+                       spatial_kernel_names()[static_cast<std::size_t>(settings.noise.fast_space)], suffix);
 }
 
 void NoiseSource::prepare(const Settings& settings) {
     const bool sampled = technique(settings.technique).traits.sampling == Sampling::per_pixel;
     const std::string texture = noise_texture_name(settings);
     const std::string name =
-        sampled ? fmt::format("{} {} {}", static_cast<int>(settings.noise), settings.noise_size, texture) : "";
+        sampled ? fmt::format("{} {} {}", static_cast<int>(settings.noise.kind), settings.noise.size, texture) : "";
     if (name == name_) return;
     NoiseSource made;
     made.name_ = name;
     if (sampled) {
-        std::vector<float> tile = noise_tile(settings.noise, settings.noise_size);
+        std::vector<float> tile = noise_tile(settings.noise.kind, settings.noise.size);
         tile.resize(NOISE_TILE_OFFSETS);  // whatever the noise, the shaders' block is there and whole
         made.tile_ = gl::Buffer::of(std::span<const float>(tile), "volumetrics noise tile");
         if (!texture.empty()) made.texture_ = load_texture(texture);

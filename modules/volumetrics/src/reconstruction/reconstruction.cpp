@@ -26,9 +26,9 @@ std::vector<TextureRef*> textures_of(Estimate& estimate, Sampling least) {
 
 void filter(Frame& frame, Estimate& estimate, TextureRef frames) {
     const std::vector<TextureRef*> noisy = textures_of(estimate, Sampling::per_pixel);
-    if (frame.settings.filter != Filter::none && !noisy.empty()) return add_filter(frame, noisy, frames);
+    if (frame.settings.filter.kernel != Filter::none && !noisy.empty()) return add_filter(frame, noisy, frames);
     for (const char* name : {"volumetrics/filter_horizontal", "volumetrics/filter_vertical"})
-        frame.skip(name, frame.settings.filter == Filter::none ? "filter is none" : not_sampled);
+        frame.skip(name, frame.settings.filter.kernel == Filter::none ? "filter is none" : not_sampled);
 }
 
 void upsample(Frame& frame, Estimate& estimate) {
@@ -52,22 +52,23 @@ const std::vector<std::string>& reconstruction_passes() {
 }
 
 const char* reason_for_no_parts(const Settings& settings) {
-    if (settings.reconstruct == Reconstruct::light) return "reconstruct is light";
-    const bool none = settings.filter == Filter::none && settings.temporal == Temporal::off;
-    return none && settings.resolution == Resolution::full ? "nothing reconstructs visibility" : nullptr;
+    if (settings.filter.reconstruct == Reconstruct::light) return "reconstruct is light";
+    const bool none = settings.filter.kernel == Filter::none && settings.temporal.mode == Temporal::off;
+    return none && settings.resolution.size == Resolution::full ? "nothing reconstructs visibility" : nullptr;
 }
 
 bool averages_frames(const Settings& settings) {
-    return settings.temporal != Temporal::off && technique(settings.technique).traits.sampling != Sampling::exact;
+    return settings.temporal.mode != Temporal::off &&
+           technique(settings.technique).traits.sampling != Sampling::exact;
 }
 
 bool reads_motion(const Settings& settings) {
-    return averages_frames(settings) && settings.temporal != Temporal::blend;
+    return averages_frames(settings) && settings.temporal.mode != Temporal::blend;
 }
 
 int resolution_factor(const Settings& settings) {
     const bool any = technique(settings.technique).traits.any_resolution;
-    return any ? 1 << static_cast<int>(settings.resolution) : 1;
+    return any ? 1 << static_cast<int>(settings.resolution.size) : 1;
 }
 
 std::string name_after(const std::string& pass, const PassList::TextureInfo& source) {
@@ -84,13 +85,14 @@ Outputs reconstruct(Frame& frame, Estimate estimate) {
     if (!estimate) return outputs;
     const Settings& settings = frame.settings;
     const std::vector<TextureRef*> sampled = textures_of(estimate, Sampling::per_frame);
-    const bool temporal = settings.temporal != Temporal::off && !sampled.empty();
-    const bool before = temporal && settings.temporal_place == TemporalPlace::before;
+    const bool temporal = settings.temporal.mode != Temporal::off && !sampled.empty();
+    const bool before = temporal && settings.temporal.place == TemporalPlace::before;
     if (!temporal)
-        frame.skip("volumetrics/temporal", settings.temporal == Temporal::off ? "temporal is off" : not_sampled);
+        frame.skip("volumetrics/temporal",
+                   settings.temporal.mode == Temporal::off ? "temporal is off" : not_sampled);
     TemporalMean mean;
     if (before) mean = add_temporal(frame, sampled);
-    const bool narrows = settings.filter_narrows && settings.temporal == Temporal::accumulate;
+    const bool narrows = settings.filter.narrows && settings.temporal.mode == Temporal::accumulate;
     filter(frame, estimate, narrows ? mean.frames : TextureRef{});
     upsample(frame, estimate);
     if (temporal && !before) mean = add_temporal(frame, sampled);

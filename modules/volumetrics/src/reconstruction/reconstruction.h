@@ -39,7 +39,8 @@ struct TemporalMean {
     TextureRef acceptance;  ///< see Outputs, where Inputs::acceptance asks for it
     TextureRef frames;      ///< float, y: frames in the mean, 1 … 256
 };
-/// The mean over frames; settings.temporal is not off. At Frame::size, or the host's where temporal_place is after.
+/// The mean over frames; settings.temporal.mode is not off. At Frame::size, or the host's where temporal_place is
+/// after.
 [[nodiscard]] TemporalMean add_temporal(Frame& frame, Textures textures);
 /// There are parts.
 void add_relight(Frame& frame, Estimate& estimate);

@@ -13,12 +13,11 @@
 namespace tyndall::volumetrics {
 namespace {
 
-const ProgramDesc program{
-    .name = "volumetrics/temporal",
-    .stages = {{GL_VERTEX_SHADER, "shaders/lib/fullscreen.vert"},
-               {GL_FRAGMENT_SHADER, "shaders/volumetrics/reconstruction/temporal.frag"}},
-    .axes = {{"REJECT", {0, 1}}, {"TEXTURES", {1, 2, 3}}, {"COUNT_WORK", {0, 1}}},
-    .valid = {}};
+const ProgramDesc program{.name = "volumetrics/temporal",
+                          .stages = {{GL_VERTEX_SHADER, "shaders/lib/fullscreen.vert"},
+                                     {GL_FRAGMENT_SHADER, "shaders/volumetrics/reconstruction/temporal.frag"}},
+                          .axes = {{"REJECT", {0, 1}}, {"TEXTURES", {1, 2, 3}}, {"COUNT_WORK", {0, 1}}},
+                          .valid = {}};
 const ProgramRegistry::Registration registration(program);
 
 /// Relative change of a global medium in one frame after which no mean is worth more than that frame.
@@ -51,17 +50,18 @@ float largest_change(const GlobalMedium& a, const GlobalMedium& b) {
 
 /// What becomes of a mode without reprojection: neither clipped nor rejected.
 bool reprojects(const Settings& settings) {
-    return settings.temporal != Temporal::blend;
+    return settings.temporal.mode != Temporal::blend;
 }
 
 }  // namespace
 
 void TemporalHistory::begin_frame(const Inputs& inputs, const Settings& settings, glm::ivec2 size,
                                   const std::vector<gl::TextureDesc>& textures) {
-    const bool statistics = reprojects(settings) && settings.temporal_reject;
+    const bool statistics = reprojects(settings) && settings.temporal.reject;
     surface_.begin_frame({.format = static_cast<GLenum>(statistics ? GL_RGBA32F : GL_RG32F), .size = {size, 1}},
                          "volumetrics temporal surface");
-    Key key{settings.temporal, settings.temporal_place, settings.technique, settings.resolution, textures.size()};
+    Key key{settings.temporal.mode, settings.temporal.place, settings.technique, settings.resolution.size,
+            textures.size()};
     if (key != key_) surface_.invalidate();
     key_ = std::move(key);
     for (std::size_t i = 0; i < most_textures; ++i) {
@@ -127,7 +127,7 @@ void TemporalHistory::set_changes(const gl::Program& shader) const {
 
 TemporalMean add_temporal(Frame& frame, Textures textures) {
     const Settings& settings = frame.settings;
-    const bool before = settings.temporal_place == TemporalPlace::before;
+    const bool before = settings.temporal.place == TemporalPlace::before;
     const glm::ivec2 size = before ? frame.size : frame.inputs.size;
     TemporalHistory& history = frame.resources.temporal;
     if (textures.size() > TemporalHistory::most_textures)
@@ -138,7 +138,7 @@ TemporalMean add_temporal(Frame& frame, Textures textures) {
     history.begin_frame(frame.inputs, settings, size, descs);
 
     const bool moves = reprojects(settings);
-    const bool counted = settings.temporal == Temporal::accumulate;
+    const bool counted = settings.temporal.mode == Temporal::accumulate;
     const int taps = !history.valid() ? 0 : !moves || history.still() ? 1 : 4;
     PassList::HistoryRefs surface = frame.passes.import_history("volumetrics/temporal/surface", history.surface());
     std::vector<Pass::Source> sources{
@@ -160,31 +160,31 @@ TemporalMean add_temporal(Frame& frame, Textures textures) {
         mean.acceptance = frame.passes.create("volumetrics/acceptance", {.format = GL_R16F, .size = {size, 1}});
     targets.push_back(&mean.acceptance);
 
-    const auto set = [=, &history, clip = moves && settings.temporal_clip, motion = static_cast<bool>(frame.inputs.motion), mode = settings.temporal,
-                      weight = settings.temporal_weight, scale = settings.temporal_scale,
-                      frames = static_cast<float>(settings.temporal_frames)](const PassContext&,
-                                                                             const gl::Program& shader) {
-        shader.set("taps", taps);
-        shader.set("low", before ? 1 : 0);
-        shader.set("motion", motion ? 1 : 0);
-        shader.set("by_depth", mode == Temporal::acceptance || counted ? 1 : 0);
-        shader.set("counted", counted ? 1 : 0);
-        shader.set("clip", clip ? 1 : 0);
-        shader.set("scale", scale);
-        shader.set("least_weight", weight);
-        shader.set("most_frames", counted ? frames : many_frames);
-        if (mode == Temporal::blend) {
-            shader.set("known_frames", many_frames);
-            shader.set("travel", 0.0F);
-            shader.set("changed_lamp_count", 0);
-        } else {
-            history.set_changes(shader);
-        }
-        shader.set("frame", history.frame());
-        shader.set("previous_clip_from_view", history.clip_before_from_view());
-    };
+    const auto set =
+        [=, &history, clip = moves && settings.temporal.clip, motion = static_cast<bool>(frame.inputs.motion),
+         mode = settings.temporal.mode, weight = settings.temporal.weight, scale = settings.temporal.scale,
+         frames = static_cast<float>(settings.temporal.frames)](const PassContext&, const gl::Program& shader) {
+            shader.set("taps", taps);
+            shader.set("low", before ? 1 : 0);
+            shader.set("motion", motion ? 1 : 0);
+            shader.set("by_depth", mode == Temporal::acceptance || counted ? 1 : 0);
+            shader.set("counted", counted ? 1 : 0);
+            shader.set("clip", clip ? 1 : 0);
+            shader.set("scale", scale);
+            shader.set("least_weight", weight);
+            shader.set("most_frames", counted ? frames : many_frames);
+            if (mode == Temporal::blend) {
+                shader.set("known_frames", many_frames);
+                shader.set("travel", 0.0F);
+                shader.set("changed_lamp_count", 0);
+            } else {
+                history.set_changes(shader);
+            }
+            shader.set("frame", history.frame());
+            shader.set("previous_clip_from_view", history.clip_before_from_view());
+        };
     frame.add({.name = "volumetrics/temporal",
-               .program = frame.program(program, {{"REJECT", moves && settings.temporal_reject},
+               .program = frame.program(program, {{"REJECT", moves && settings.temporal.reject},
                                                   {"TEXTURES", static_cast<int>(textures.size())}}),
                .sources = sources,
                .targets = targets,

@@ -30,8 +30,9 @@ void add_upsample(Frame& frame, Textures textures) {
          .program = frame.program(program, {{"TEXTURES", static_cast<int>(textures.size())}}),
          .sources = sources,
          .targets = {textures.begin(), textures.end()},
-         .set = [factor = resolution_factor(frame.settings), mode = static_cast<int>(frame.settings.upsample),
-                 falloff = frame.settings.filter_depth_falloff](const PassContext&, const gl::Program& shader) {
+         .set = [factor = resolution_factor(frame.settings),
+                 mode = static_cast<int>(frame.settings.resolution.upsample),
+                 falloff = frame.settings.filter.depth_falloff](const PassContext&, const gl::Program& shader) {
              shader.set("factor", factor);
              shader.set("mode", mode);
              shader.set("depth_falloff", falloff);

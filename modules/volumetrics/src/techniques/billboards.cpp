@@ -42,12 +42,12 @@ constexpr float endless = 1e9F;
 void add_sheets(const Settings& settings, std::vector<shared::Billboard>& sprites) {
     const auto depth = [&](int layer) {
         return glsl::froxel_view_depth_from_w(
-            glsl::FROXEL_LOGARITHMIC, static_cast<float>(layer) / static_cast<float>(settings.billboard_layers),
-            settings.max_distance / 32, settings.max_distance);
+            glsl::FROXEL_LOGARITHMIC, static_cast<float>(layer) / static_cast<float>(settings.billboards.layers),
+            settings.march.max_distance / 32, settings.march.max_distance);
     };
-    for (int layer = 0; layer < settings.billboard_layers; ++layer)
+    for (int layer = 0; layer < settings.billboards.layers; ++layer)
         sprites.push_back({whole_screen, {depth(layer), depth(layer + 1), BILLBOARD_GLOBAL, 0}});
-    sprites.push_back({whole_screen, {depth(settings.billboard_layers), endless, BILLBOARD_HORIZON, 0}});
+    sprites.push_back({whole_screen, {depth(settings.billboards.layers), endless, BILLBOARD_HORIZON, 0}});
 }
 
 /// Nearest and farthest view depth [m] of a shape; the nearest is not behind the eye.
@@ -60,7 +60,7 @@ glm::vec2 depths_of(const shared::LocalMedium& medium, const glm::mat4& view) {
 
 void add_local(const Inputs& inputs, const Settings& settings, const FrameMedia& media,
                std::vector<shared::Billboard>& sprites) {
-    const glm::vec2 froxels{settings.froxels_x, settings.froxels_y};
+    const glm::vec2 froxels{settings.froxels.x, settings.froxels.y};
     for (std::size_t i = 0; i < media.local.size(); ++i) {
         const glm::vec2 depths = depths_of(media.local[i], inputs.view);
         if (depths.x >= depths.y) continue;
@@ -69,9 +69,9 @@ void add_local(const Inputs& inputs, const Settings& settings, const FrameMedia&
                              2.0F * glm::vec2(box.upper) / froxels - 1.0F};
         const auto depth = [&](int layer) {
             return glm::mix(depths.x, depths.y,
-                            static_cast<float>(layer) / static_cast<float>(settings.billboard_local_layers));
+                            static_cast<float>(layer) / static_cast<float>(settings.billboards.local_layers));
         };
-        for (int layer = 0; layer < settings.billboard_local_layers; ++layer)
+        for (int layer = 0; layer < settings.billboards.local_layers; ++layer)
             sprites.push_back({rect, {depth(layer), depth(layer + 1), static_cast<float>(i), 0}});
     }
 }
@@ -108,7 +108,7 @@ Layers add_draw(Frame& frame, const gl::Buffer& sprites, GLsizei count) {
                .state = {.depth_test = hides, .blend = gl::Blend::premultiplied},
                .set =
                    [&sprites, &resources = frame.resources, targets = static_cast<GLint>(layers.size()),
-                    fade = frame.settings.billboard_fade](const PassContext&, const gl::Program& shader) {
+                    fade = frame.settings.billboards.fade](const PassContext&, const gl::Program& shader) {
                        const glm::vec4 nothing{0, 0, 0, 1};
                        for (GLint target = 0; target < targets; ++target)
                            glClearBufferfv(GL_COLOR, target, &nothing.x);

@@ -17,7 +17,7 @@ const ProgramDesc program{.name = "volumetrics/froxel_apply",
 const ProgramRegistry::Registration registration(program);
 
 Estimate add(Frame& frame) {
-    const bool keeps = frame.settings.froxel_history > 0 && (frame.inputs.has_sun || frame.inputs.has_lamps);
+    const bool keeps = frame.settings.froxels.history > 0 && (frame.inputs.has_sun || frame.inputs.has_lamps);
     if (!keeps) frame.kept_by_technique.reset();
     Estimate estimate = frame.create_estimate();
     estimate.fog = add_froxel_fog(frame, keeps ? &frame.kept<FroxelHistory>() : nullptr);
@@ -43,7 +43,7 @@ Fog add_froxel_fog(Frame& frame, FroxelHistory* history) {
         radiance = add_froxel_history(frame, columns, light, *history);
     else
         frame.skip("volumetrics/froxel_history",
-                   frame.settings.froxel_history > 0 ? "neither sun nor lamps" : "froxel_history is 0");
+                   frame.settings.froxels.history > 0 ? "neither sun nor lamps" : "froxel_history is 0");
     return add_froxel_accumulate(frame, media, columns, radiance);
 }
 

@@ -27,7 +27,7 @@ constexpr glm::dvec3 sequence_step{0.8191725133961645, 0.6710436067037893, 0.549
 }  // namespace
 
 void FroxelHistory::begin_frame(const Inputs& inputs, const Settings& settings, const FrameMedia& media) {
-    const glm::ivec3 size{settings.froxels_x, settings.froxels_y, settings.froxels_z};
+    const glm::ivec3 size{settings.froxels.x, settings.froxels.y, settings.froxels.z};
     const gl::TextureDesc desc{.kind = gl::TextureKind::d3, .format = GL_RGBA16, .size = size, .levels = 1};
     visibility_.begin_frame(desc, "volumetrics froxel visibility");
     certainty_.begin_frame(desc, "volumetrics froxel certainty");
@@ -81,7 +81,7 @@ TextureRef add_froxel_history(Frame& frame, TextureRef columns, const FroxelLigh
              {{columns}, {light.visibility}, {light.sun}, {light.lamps}, {visibility_before}, {certainty_before}},
          .images = {{&radiance, true}, {&visibility}, {&certainty}},
          .set =
-             [&history, kind, frames = static_cast<float>(frame.settings.froxel_history)](
+             [&history, kind, frames = static_cast<float>(frame.settings.froxels.history)](
                  const PassContext&, const gl::Program& shader) {
                  if (kind == 1) history.set_uniforms(shader);
                  shader.set("most_frames", glm::vec2(frames, std::min(frames, history.sun_frames())));

@@ -30,7 +30,7 @@ constexpr glm::ivec3 group{16, 16, 8};
 FroxelLight add_froxel_light(Frame& frame, const FroxelMedia& media, TextureRef columns,
                              const FroxelHistory* history) {
     const Settings& settings = frame.settings;
-    const glm::ivec3 size{settings.froxels_x, settings.froxels_y, settings.froxels_z};
+    const glm::ivec3 size{settings.froxels.x, settings.froxels.y, settings.froxels.z};
     const auto create = [&](const char* name, bool wanted) {
         const gl::TextureDesc desc{.kind = gl::TextureKind::d3, .format = GL_RGBA16F, .size = size};
         return wanted ? frame.passes.create(name, desc) : TextureRef{};
@@ -41,12 +41,14 @@ FroxelLight add_froxel_light(Frame& frame, const FroxelMedia& media, TextureRef 
                       .sun = create("volumetrics/froxel_sun", keeps && frame.inputs.has_sun),
                       .lamps = create("volumetrics/froxel_lamps", keeps && frame.inputs.has_lamps)};
     // Several height media are rare and slow: they have no program of their own without local media.
-    const bool local = !frame.media.local.empty() || frame.resources.light_volumes.any() ||
-                       height_media_axis(frame.media) > 1;
+    const bool local =
+        !frame.media.local.empty() || frame.resources.light_volumes.any() || height_media_axis(frame.media) > 1;
     frame.add({.name = "volumetrics/froxel_light",
                .program = frame.program(program, {{"LOCAL_MEDIA", local}, {"FROXEL_HISTORY", keeps}}),
-               .sources =
-                   {{columns}, {media.scattering}, {media.extinction}, {frame.media.local_emission ? media.emission : media.scattering}},
+               .sources = {{columns},
+                           {media.scattering},
+                           {media.extinction},
+                           {frame.media.local_emission ? media.emission : media.scattering}},
                .images = {{&light.radiance}, {&light.visibility}, {&light.sun}, {&light.lamps}},
                .lit = true,
                .light_volumes = true,

@@ -14,11 +14,11 @@ constexpr int levels = 4;
 constexpr double cell_period = 1 << 20;
 
 float end_of_particles(const Settings& settings) {
-    return std::min(settings.particle_distance, settings.max_distance);
+    return std::min(settings.particles.distance, settings.march.max_distance);
 }
 
 double drifted(const Inputs& inputs, const Settings& settings) {
-    return settings.particle_drift * inputs.time;
+    return settings.particles.drift * inputs.time;
 }
 
 /// A level covers `side` cells around the cell of the eye; its reach leaves out what may be cut off at either end.
@@ -32,7 +32,7 @@ void add_level(const Inputs& inputs, const Settings& settings, int level, int si
     const glm::dvec3 lower = glm::floor(eye / spacing) - static_cast<double>(side / 2);
     const double volume = spacing * spacing * spacing;
     batches.push_back({.count = static_cast<std::uint32_t>(side * side * side),
-                       .radius = static_cast<float>(settings.particle_size * spacing),
+                       .radius = static_cast<float>(settings.particles.size * spacing),
                        .volume = static_cast<float>(volume),
                        .side = side,
                        .lower_cell = glm::ivec3(lower - cell_period * glm::floor(lower / cell_period)),
@@ -53,11 +53,11 @@ void add_local(const Inputs& inputs, const Settings& settings, const FrameMedia&
     for (const shared::LocalMedium& medium : media.local) total += cross_section(medium);
     for (std::size_t i = 0; i < media.local.size(); ++i) {
         const double share = cross_section(media.local[i]) / total;
-        const double count = std::max(32.0, std::floor(share * settings.particle_local_count));
+        const double count = std::max(32.0, std::floor(share * settings.particles.local_count));
         const float particle_volume = volume(media.local[i]) / static_cast<float>(count);
         batches.push_back({.medium = static_cast<int>(i),
                            .count = static_cast<std::uint32_t>(count),
-                           .radius = settings.particle_size * std::cbrt(particle_volume),
+                           .radius = settings.particles.size * std::cbrt(particle_volume),
                            .volume = particle_volume,
                            .drift = static_cast<float>(std::fmod(drifted(inputs, settings), 1e5))});
     }
@@ -72,14 +72,14 @@ float particle_reach(const Settings& settings) {
 std::vector<ParticleBatch> particle_batches(const Inputs& inputs, const Settings& settings,
                                             const FrameMedia& media) {
     std::vector<ParticleBatch> batches;
-    const int side = static_cast<int>(std::cbrt(settings.particle_count / levels) + 1e-6);
+    const int side = static_cast<int>(std::cbrt(settings.particles.count / levels) + 1e-6);
     for (int level = 0; media.has_global && level < levels; ++level)
         add_level(inputs, settings, level, side, batches);
     add_local(inputs, settings, media, batches);
     std::uint32_t first = 0;
     for (ParticleBatch& batch : batches) {
         batch.first = first;
-        batch.placement = settings.temporal == Temporal::off ? 0 : media.data.noise.z;
+        batch.placement = settings.temporal.mode == Temporal::off ? 0 : media.data.noise.z;
         first += batch.count;
     }
     return batches;

@@ -26,7 +26,7 @@ const ProgramRegistry::Registration registration(program);
 
 /// The sun's visible share over each pixel's ray.
 TextureRef add_visibility(Frame& frame) {
-    const bool intervals = frame.settings.radial_occlusion == RadialOcclusion::intervals;
+    const bool intervals = frame.settings.radial_shafts.occlusion == RadialOcclusion::intervals;
     TextureRef share = frame.create("volumetrics/sun_share");
     frame.add({.name = "volumetrics/radial_visibility",
                .program = frame.program(visibility_program, {{"INTERVALS", intervals}}),

@@ -41,7 +41,7 @@ int local_media_axis(const Frame& frame) {
 const char* reason_for_no_parts(const Frame& frame) {
     if (const char* reason = volumetrics::reason_for_no_parts(frame.settings)) return reason;
     if (!frame.inputs.has_sun && !frame.inputs.has_lamps) return "no sun and no lamps";
-    if (frame.inputs.has_lamps && frame.settings.lamp_integration == LampIntegration::center)
+    if (frame.inputs.has_lamps && frame.settings.light.lamp_integration == LampIntegration::center)
         return "lamp_integration is center: unshadowed light is noisy, too";
     if (!frame.media.local.empty() && frame.media.chromatic)
         return "local media in view and extinction is coloured";
@@ -73,17 +73,17 @@ Estimate add(Frame& frame) {
         if (frame.inputs.has_lamps) estimate.parts.push_back(create_part(frame, "lamps"));
         for (Part& part : estimate.parts) targets.insert(targets.end(), {&part.light, &part.share});
     }
-    frame.add({.name = "volumetrics/march",
-               .program = frame.program(program, {{"LOCAL_MEDIA", local_media_axis(frame)},
-                                                  {"PARTS", whole == nullptr}}),
-               .sources = {{frame.depth},
-                           {froxels.scattering, true},
-                           {froxels.extinction, true},
-                           {froxels.emission ? froxels.emission : froxels.scattering, true},
-                           {runs}},
-               .targets = targets,
-               .lit = true,
-               .light_volumes = true});
+    frame.add(
+        {.name = "volumetrics/march",
+         .program = frame.program(program, {{"LOCAL_MEDIA", local_media_axis(frame)}, {"PARTS", whole == nullptr}}),
+         .sources = {{frame.depth},
+                     {froxels.scattering, true},
+                     {froxels.extinction, true},
+                     {froxels.emission ? froxels.emission : froxels.scattering, true},
+                     {runs}},
+         .targets = targets,
+         .lit = true,
+         .light_volumes = true});
     return estimate;
 }
 

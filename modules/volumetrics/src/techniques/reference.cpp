@@ -64,7 +64,7 @@ struct Reference {
 /// So many steps that the loops of a dispatch stay far from what drivers end or take for a hang.
 int media_steps_per_dispatch(const FrameMedia& media, const Settings& settings) {
     constexpr int iterations = 8000, noise_octaves = 4;
-    const int per_medium = (1 + noise_octaves) * (1 + settings.reference_light_steps);
+    const int per_medium = (1 + noise_octaves) * (1 + settings.reference.light_steps);
     return std::clamp(iterations / (1 + static_cast<int>(media.local.size()) * per_medium), 1, steps_per_part);
 }
 
@@ -84,11 +84,11 @@ Estimate add(Frame& frame) {
         .media = frame.program(media_program),
         .lamps = frame.inputs.has_lamps ? &frame.program(lamp_program) : nullptr,
         .unfinished = frame.kept<Unfinished>().buffer,
-        .steps = (settings.reference_steps + steps_per_part - 1) / steps_per_part * steps_per_part,
+        .steps = (settings.reference.steps + steps_per_part - 1) / steps_per_part * steps_per_part,
         .steps_per_dispatch = media_steps_per_dispatch(frame.media, settings),
         .groups = glm::uvec2((frame.size + 7) / 8)};
     const auto set = [estimate, reference, &resources = frame.resources, has_global = frame.media.has_global,
-                      lamp_samples = settings.reference_lamp_samples, light_steps = settings.reference_light_steps](
+                      lamp_samples = settings.reference.lamp_samples, light_steps = settings.reference.light_steps](
                          const PassContext& context, const gl::Program&) {
         for (const TextureRef ref : {estimate.scattering, estimate.transmittance})
             glClearTexImage(context.texture(ref).id, 0, GL_RGBA, GL_FLOAT, nullptr);

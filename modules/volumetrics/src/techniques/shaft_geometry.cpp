@@ -57,12 +57,12 @@ glm::vec4 ray_cuts(const FrameMedia& media, const Settings& settings) {
     for (unsigned i = 0; i < heights; ++i) falloff = std::min(falloff, media.data.height[i].sigma_t_falloff.w);
     const float first = std::max(0.5F * falloff, 1e-3F);
     const float end = clearest > opaque / farthest ? opaque / clearest : farthest;
-    const auto count = static_cast<float>(settings.shaft_segments);
+    const auto count = static_cast<float>(settings.shaft_geometry.segments);
     return {count, first, std::log1p(end / first) / count, end};
 }
 
 TextureRef add_mesh(Frame& frame) {
-    const glm::ivec2 size{frame.settings.shaft_grid + 1, frame.settings.shaft_grid + 3};
+    const glm::ivec2 size{frame.settings.shaft_geometry.grid + 1, frame.settings.shaft_geometry.grid + 3};
     TextureRef vertices =
         frame.passes.create("volumetrics/shaft_vertices", {.format = GL_RGBA32F, .size = {size, 1}});
     frame.add({.name = "volumetrics/shaft_mesh",
@@ -84,7 +84,7 @@ TextureRef add_faces(Frame& frame, TextureRef vertices) {
         shader.set("relative_to_clip", relative_to_clip);
         shader.set("shaft_cuts", cuts);
     };
-    const auto draw = [grid = frame.settings.shaft_grid] {
+    const auto draw = [grid = frame.settings.shaft_geometry.grid] {
         const gl::VertexArray none("volumetrics shaft faces");
         none.bind();
         glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 2 * (grid + 3), grid);
@@ -122,7 +122,7 @@ Estimate add_resolve(Frame& frame, TextureRef face_light) {
          .sources = {{frame.depth}, {face_light}},
          .targets = targets,
          .lit = true,
-         .set = [cuts = ray_cuts(frame.media, frame.settings), parts = frame.settings.shaft_lamp_parts](
+         .set = [cuts = ray_cuts(frame.media, frame.settings), parts = frame.settings.shaft_geometry.lamp_parts](
                     const PassContext&, const gl::Program& shader) {
              shader.set("shaft_cuts", cuts);
              shader.set("shaft_lamp_parts", parts);
