@@ -6,6 +6,7 @@
 
 #include "engine/core/error.h"
 #include "engine/gl/debug_scope.h"
+#include "engine/gl/program_limits.h"
 
 namespace tyndall::gl {
 namespace {
@@ -76,6 +77,7 @@ Program::Program(const std::vector<ShaderSource>& sources, const std::string& la
     if (ok != GL_TRUE)
         throw Error(fmt::format("program '{}': does not link\n{}", label,
                                 info_log(id(), glGetProgramiv, glGetProgramInfoLog)));
+    check_limits(label, program_needs(id()), driver_limits());
 }
 
 GLint Program::location(std::string_view name) const {

@@ -21,7 +21,7 @@ struct ShaderSource {
 class Program {
   public:
     Program() = default;
-    /// Throws Error with the compiler's log.
+    /// Throws Error with the compiler's log, or what it needs that the driver has not (program_limits.h).
     Program(const std::vector<ShaderSource>& sources, const std::string& label);
 
     [[nodiscard]] GLuint id() const { return handle_.id(); }

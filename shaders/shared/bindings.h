@@ -1,41 +1,42 @@
-// Binding points, one home for both languages.
+// Binding points, one home for both languages. OpenGL 4.5 promises 8 storage buffers and 16 texture units: numbers stay
+// below, and programs that never meet share them. What is shared is bound anew by each pass that reads it; a test holds
+// every permutation to the limits.
 #ifndef SHARED_BINDINGS_H
 #define SHARED_BINDINGS_H
 
 // Uniform blocks
 #define BINDING_FRAME 0
 #define BINDING_VOLUMETRICS 1
+#define BINDING_NOISE 2  // volumetrics: noise_offset.glsl
 
-// Storage buffers
-#define BINDING_INSTANCES 0
+// Storage buffers. 1 to 4 are what lights are read from (shaders/interface): bound together for every lit pass.
+#define BINDING_INSTANCES 0           // geometry: G-buffer, shadows, transparent surfaces
+#define BINDING_PARTICLES 0           // transparent particles
+#define BINDING_SPRITES 0             // volumetrics: billboards, particles
+#define BINDING_MEDIA_TILES 0         // volumetrics: inject_media
+#define BINDING_UNFINISHED 0          // volumetrics: reference_lamps
 #define BINDING_LIGHTS 1
 #define BINDING_CLUSTERS 2
 #define BINDING_CLUSTER_LIGHTS 3
 #define BINDING_SHADOW_TILES 4
-#define BINDING_VISIBLE_LIGHTS 5
-#define BINDING_VISIBLE_INSTANCES 6
-#define BINDING_LOCAL_MEDIA 7
-#define BINDING_NOISE 8
-#define BINDING_MEDIA_TILES 9
-#define BINDING_UNFINISHED 10
-#define BINDING_SPRITES 11
-#define BINDING_LAMP_VOLUMES 12
-#define BINDING_PARTICLES 13
-#define BINDING_PREVIOUS_INSTANCES 14
-#define BINDING_WORK 15
+#define BINDING_LAMP_VOLUMES 5        // whatever is lit through local media
+#define BINDING_VISIBLE_LIGHTS 5      // light culling, clusters
+#define BINDING_PREVIOUS_INSTANCES 5  // geometry: G-buffer with motion
+#define BINDING_VISIBLE_INSTANCES 6   // geometry
+#define BINDING_LOCAL_MEDIA 6         // volumetrics: inject_media, light volumes, billboards, particles, reference
+#define BINDING_WORK 7                // every pass that counts its work
 
-// Texture units of the lighting contract; passes use units 0-7 for their own textures.
-#define UNIT_SUN_CASCADES 8
+// Texture units. 0 to 7 are a pass's own: a geometry pass's material is 0 to 4, the sky it mirrors 5. A pass that
+// includes shaders/volumetrics/frame/apply.glsl leaves 6 and 7 to it.
+#define UNIT_FOG_COLUMNS 6
+#define UNIT_FOG_RADIANCE 7
+#define UNIT_SUN_CASCADES 8       // 8 to 11: what lights are read from
 #define UNIT_SUN_STATIC 9
 #define UNIT_SHADOW_ATLAS 10
 #define UNIT_AMBIENT 11
-#define UNIT_SUN_VOLUME 12
+#define UNIT_SUN_VOLUME 12        // 12, 13: light_transmittance.glsl
 #define UNIT_LAMP_VOLUMES 13
-#define UNIT_NOISE 5
-
-// What shaders/volumetrics/frame/apply.glsl samples, beside the textures of the pass that includes it.
-#define UNIT_FOG_COLUMNS 6
-#define UNIT_FOG_RADIANCE 7
-#define UNIT_FOG_OPTICAL_DEPTH 14
+#define UNIT_NOISE 14             // noise_offset.glsl
+#define UNIT_FOG_OPTICAL_DEPTH 15 // apply.glsl
 
 #endif

@@ -22,6 +22,7 @@
 #define NOISE_TIME_OWN 1
 #define NOISE_TIME_GOLDEN_RATIO 2
 #define NOISE_TIME_R2 3
+#define NOISE_TILE_OFFSETS 256  // of the largest tile
 #define NOISE_TEXTURE_SIDE 128
 #define NOISE_TEXTURE_SLICES 32
 
@@ -58,14 +59,29 @@ struct VolumetricsData {
     vec4 homogeneous_sigma_t;   // rgb 1/m
     vec4 homogeneous_emission;  // rgb radiance per metre
     vec4 homogeneous_rayleigh;  // rgb 1/m: the part of sigma_s with Rayleigh's phase function
-    uvec4 counts;               // x height media, y local media, z steps, w side of the noise tile (px), 1: none
+    uint height_media_count;
+    uint local_media_count;
+    uint steps;                 // of the march
+    uint noise_side;            // of the noise tile (px), 1: none
     uvec4 noise;                // x NOISE_*, y NOISE_TIME_*, z frame
-    uvec4 options;              // x PHASE_*, y 1: light is attenuated on its way in, z 1: ambient light, w FROXEL_*
-    vec4 phase_back;            // x anisotropy, y weight of the back lobe (PHASE_DOUBLE_HENYEY_GREENSTEIN)
-    vec4 march;                 // x max distance (m), y first step / ray length, z each step / the one before; w 1: froxels have an optical depth by channel
+    uint phase;                 // PHASE_*
+    uint light_transmittance;   // 1: light is attenuated on its way in
+    uint has_ambient;
+    uint froxel_distribution;   // FROXEL_*
+    float max_distance;         // of the march, m
+    float first_step;           // / length of the ray
+    float step_growth;          // each step / the one before
+    uint coloured_froxels;      // 1: froxels have an optical depth by channel
+    float back_anisotropy;      // of the back lobe (PHASE_DOUBLE_HENYEY_GREENSTEIN)
+    float back_weight;
+    uint local_emission;        // 1: some local medium emits
+    uint fog_mode;              // FOG_*
+    float radial_samples;       // to the light
+    float radial_decay;         // weight at the light
+    float radial_unseen;        // visibility of an unseen sun
+    float unused;
     vec4 froxel_depths;         // x nearest, y farthest view depth (m) of the froxel volume
     vec4 medium_depths;         // x nearest, y farthest view depth (m) at which the march finds a medium
-    vec4 fog;                   // x FOG_*, y samples to the light, z weight at the light, w visibility of an unseen sun
     mat4 froxel_begins;         // FROXEL_TABLE: view depth (m) where each of 16 equal shares of the slices begins
     mat4 froxel_lengths;        // and their lengths (m); entry i is [i / 4][i % 4]
     mat4 world_to_sun_volume;   // world to texture xyz of the sun volume, see light_transmittance.glsl

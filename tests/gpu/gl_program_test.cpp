@@ -6,6 +6,7 @@
 
 #include "engine/core/error.h"
 #include "engine/gl/framebuffer.h"
+#include "engine/gl/program_limits.h"
 #include "engine/gl/readback.h"
 #include "engine/gl/state.h"
 #include "engine/gl/vertex_array.h"
@@ -75,6 +76,47 @@ TEST_F(GlProgram, DefinesChooseThePermutation) {
     EXPECT_THAT(pixel({{"RED", 0}, {"GREEN", 3}}), ElementsAre(0, 3, 0, 1));
     EXPECT_THAT(pixel({{"RED", 1}, {"GREEN", 2}}), ElementsAre(1, 2, 0, 1));
     EXPECT_EQ(library_.program_count(), 2U);
+}
+
+TEST_F(GlProgram, SaysWhatItNeedsOfTheDriver) {
+    write(
+        "layout(std430, binding = 5) readonly buffer Values { float values[]; };\n"
+        "layout(binding = 9) uniform sampler2DArrayShadow maps;\n"
+        "layout(binding = 2) uniform usampler3D counts[2];\n"
+        "layout(binding = 3, r32f) writeonly uniform image2D target;\n"
+        "layout(location = 0) out vec4 a;\n"
+        "layout(location = 3) out vec4 b;\n"
+        "void main() {\n"
+        "    a = vec4(values[0], texture(maps, vec4(0)), float(texelFetch(counts[1], ivec3(0), 0).r), 0);\n"
+        "    b = vec4(1);\n"
+        "    imageStore(target, ivec2(0), a);\n"
+        "}\n");
+    const gl::ProgramLimits needs = gl::program_needs(library_.get(desc_).id());
+    EXPECT_EQ(needs.storage_bindings, 6);
+    EXPECT_EQ(needs.storage_blocks, 1);
+    EXPECT_EQ(needs.vertex_storage_blocks, 0);
+    EXPECT_EQ(needs.fragment_storage_blocks, 1);
+    EXPECT_EQ(needs.compute_storage_blocks, 0);
+    EXPECT_EQ(needs.texture_units, 10);
+    EXPECT_EQ(needs.image_units, 4);
+    EXPECT_EQ(needs.draw_buffers, 4);
+}
+
+TEST_F(GlProgram, NeedsBeyondALimitAreAnErrorOfOneLine) {
+    const gl::ProgramLimits promised = gl::promised_limits;
+    EXPECT_NO_THROW(gl::check_limits("fog", promised, promised));
+    gl::ProgramLimits needs = promised;
+    needs.texture_units = 17;
+    try {
+        gl::check_limits("fog", needs, promised);
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_STREQ(error.what(), "program 'fog': needs 17 texture units, the driver has 16");
+    }
+}
+
+TEST_F(GlProgram, TheDriverHasWhatOpenGlPromises) {
+    EXPECT_NO_THROW(gl::check_limits("any", gl::promised_limits, gl::driver_limits()));
 }
 
 TEST_F(GlProgram, UniformsOfEveryType) {

@@ -14,13 +14,11 @@ const ProgramDesc program{
      {"HAS_AMBIENT", {0, 1}},
      {"SHADOWS", {0, 1}},
      {"MEDIUM_TRANSMITTANCE", {0, 1}},
-     {"LIGHT_VOLUMES", {0, 1, 2, 3}},
+     {"LIGHT_VOLUMES", {0, 1}},
      {"COUNT_WORK", {0, 1}}},
     [](const Permutation& p) {
         const bool lights = p.at("HAS_SUN") != 0 || p.at("HAS_LAMPS") != 0;
-        const int volumes = p.at("LIGHT_VOLUMES"), of_sun = volumes & 1, of_lamps = volumes / 2;
-        if (volumes != 0 && (p.at("MEDIUM_TRANSMITTANCE") == 0 || of_sun != p.at("HAS_SUN"))) return false;
-        if (of_lamps > p.at("HAS_LAMPS")) return false;
+        if (p.at("LIGHT_VOLUMES") > p.at("MEDIUM_TRANSMITTANCE")) return false;
         return lights || (p.at("SHADOWS") == 0 && p.at("MEDIUM_TRANSMITTANCE") == 0);
     }};
 const ProgramRegistry::Registration registration(program);

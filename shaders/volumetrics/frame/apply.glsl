@@ -34,7 +34,7 @@ struct Ends {
 
 vec3 local_depth_at(ivec3 froxel, vec4 texel) {
 #if LOCAL_MEDIA && CHROMATIC
-    if (volumetrics.march.w == 0.0) return vec3(texel.a);  // no medium is coloured: a host asks for both
+    if (volumetrics.coloured_froxels == 0u) return vec3(texel.a);  // no medium is coloured: a host asks for both
     count_work(WORK_TEXTURE_FETCHES, 1u);
     return texelFetch(froxel_optical_depth, froxel, 0).rgb;
 #else
@@ -134,7 +134,7 @@ March froxel_march(vec2 uv, float surface, bool opaque, bool endless, vec3 ambie
 
 // At screen position uv (0..1, origin lower left) up to a view depth [m].
 FogInFront fog_at(vec2 uv, float view_depth) {
-    vec3 ambient = view_depth > froxel_far() && volumetrics.options.z != 0u ? ambient_radiance() : vec3(0.0);
+    vec3 ambient = view_depth > froxel_far() && volumetrics.has_ambient != 0u ? ambient_radiance() : vec3(0.0);
     March march = froxel_march(uv, view_depth, false, false, ambient);
     return FogInFront(march.radiance, vec3(march.transmittance));
 }

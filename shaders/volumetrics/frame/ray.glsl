@@ -10,6 +10,7 @@ struct Ray {
     vec3 direction;        // unit, world
     float forward_cosine;  // with the camera's axis: view depth / distance
     vec2 uv;               // of the pixel, 0..1, origin lower left
+    vec3 visibility_direction;  // the direction in which visibility is sampled; its points have the view depths of the ray's
 };
 
 // Where on the screen (0..1) a pixel of the chosen resolution looks: the middle of what it covers of it. At the far borders
@@ -35,7 +36,8 @@ vec4 target_clip(vec4 clip) {
 Ray view_ray(vec2 uv) {
     vec4 p = volumetrics.inverse_projection * vec4(uv * 2.0 - 1.0, 1.0, 1.0);  // on the near plane
     vec3 view_direction = normalize(p.xyz / p.w);
-    return Ray(volumetrics.eye.xyz, mat3(volumetrics.inverse_view) * view_direction, -view_direction.z, uv);
+    vec3 direction = mat3(volumetrics.inverse_view) * view_direction;
+    return Ray(volumetrics.eye.xyz, direction, -view_direction.z, uv, direction);
 }
 
 #endif

@@ -19,12 +19,7 @@
 #endif
 
 // Where visibility is sampled for a point of the ray.
-#if FROXEL_HISTORY
-vec3 visibility_direction = vec3(0.0);  // of the length that makes a point's view depth that of the point of the ray
-vec3 visibility_point(Ray ray, float t) { return ray.origin + visibility_direction * t; }
-#else
-vec3 visibility_point(Ray ray, float t) { return ray.origin + ray.direction * t; }
-#endif
+vec3 visibility_point(Ray ray, float t) { return ray.origin + ray.visibility_direction * t; }
 
 float lamp_inverse_range(GpuLight light) {
     return light.position_range.w > 0.0 ? 1.0 / light.position_range.w : 0.0;

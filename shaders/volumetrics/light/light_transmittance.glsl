@@ -1,7 +1,7 @@
 // What media leave of light on its way to a point. For surface lighting in a host's shaders: define LIGHT_VOLUMES as
 // Volumetrics::add_light_passes says, and bind with Volumetrics::bind_uniforms().
 //
-// Global media attenuate in closed form. Local media do as the light volumes hold it (LIGHT_VOLUMES, bits: 1 sun, 2 lamps):
+// Global media attenuate in closed form. Local media do as the light volumes hold it (LIGHT_VOLUMES 1):
 // sums of optical depth along the light's rays, exact at each texel for media of constant density, in between linear; so
 // edges are as soft as a texel.
 #ifndef VOLUMETRICS_LIGHT_TRANSMITTANCE_GLSL
@@ -14,26 +14,22 @@
 #ifndef LIGHT_VOLUMES
 #define LIGHT_VOLUMES 0
 #endif
-#define SUN_VOLUME (LIGHT_VOLUMES == 1 || LIGHT_VOLUMES == 3)
-#define LAMP_VOLUMES (LIGHT_VOLUMES >= 2)
 
 // Towards the sun. A homogeneous medium fills all space and has no boundary at which sunlight could enter it: the
 // sun's illuminance is what arrives inside of it. Height media end upwards and attenuate by the closed form.
 vec3 sun_optical_depth(float y, vec3 to_sun) {
-    if (volumetrics.options.y == 0u) return vec3(0.0);
+    if (volumetrics.light_transmittance == 0u) return vec3(0.0);
     return height_optical_depth_to_infinity(y, to_sun.y);
 }
 
 // Over the path between a point and a lamp.
 vec3 lamp_optical_depth(float y, vec3 to_lamp, float path_length) {
-    if (volumetrics.options.y == 0u) return vec3(0.0);
+    if (volumetrics.light_transmittance == 0u) return vec3(0.0);
     return volumetrics.homogeneous_sigma_t.rgb * path_length + height_optical_depth(y, to_lamp.y, path_length);
 }
 
-#if SUN_VOLUME
+#if LIGHT_VOLUMES
 layout(binding = UNIT_SUN_VOLUME) uniform sampler3D sun_volume;
-#endif
-#if LAMP_VOLUMES
 layout(binding = UNIT_LAMP_VOLUMES) uniform sampler3D lamp_volumes;
 struct LampVolume {
     vec4 tile;    // xy its corner in texels, < 0 none; z distance (m) where it begins, w 1 / its length
@@ -45,7 +41,7 @@ layout(std430, binding = BINDING_LAMP_VOLUMES) readonly buffer LampVolumeBuffer 
 // Of the local media between the sun and a point. Clamping of the coordinates is right everywhere: beside the box and
 // before it the texels hold 0, behind it the last ones the whole sum.
 vec3 local_sun_optical_depth(vec3 point) {
-#if SUN_VOLUME
+#if LIGHT_VOLUMES
     count_work(WORK_TEXTURE_FETCHES, 1u);
     return textureLod(sun_volume, (volumetrics.world_to_sun_volume * vec4(point, 1.0)).xyz, 0.0).rgb;
 #else
@@ -55,7 +51,7 @@ vec3 local_sun_optical_depth(vec3 point) {
 
 // Of the local media between a lamp, by its index for light_at(), and a point.
 vec3 local_lamp_optical_depth(uint index, vec3 from_lamp, float path_length) {
-#if LAMP_VOLUMES
+#if LIGHT_VOLUMES
     if (index >= uint(lamp_volume.length())) return vec3(0.0);
     vec4 tile = lamp_volume[index].tile;
     if (tile.x < 0.0 || path_length <= tile.z) return vec3(0.0);

@@ -94,7 +94,8 @@ void march_tail(Ray ray, float begin, float end, bool endless, vec3 ambient, Ext
 #if HEIGHT_MEDIA
     float part_begin = begin;
     float part_length = (visible_end - begin) * TAIL_FIRST_PART;
-    for (int i = 1; i < TAIL_PARTS; ++i) {
+    int parts = HEIGHT_COUNT == 0u ? 1 : TAIL_PARTS;
+    for (int i = 1; i < parts; ++i) {
         add_global(ray, part_begin, part_begin + part_length, ambient, sun_front, march);
         part_begin += part_length;
         part_length *= TAIL_GROWTH;

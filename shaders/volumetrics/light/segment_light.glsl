@@ -6,8 +6,8 @@
 #include "shaders/volumetrics/light/lamps.glsl"
 
 // 1: unshadowed light is wanted without noise (march.frag).
-#ifndef VISIBILITY
-#define VISIBILITY 0
+#ifndef PARTS
+#define PARTS 0
 #endif
 
 #include "shaders/volumetrics/light/segment.glsl"
@@ -35,9 +35,9 @@ float sunlight_fall(Ray ray, Segment segment, float x) {
 // What the local media leave of sunlight on its way to the segment: the mean over two points, each in its half of the
 // light gathered.
 vec3 local_sun_transmittance(Ray ray, Segment segment, float fall) {
-#if SUN_VOLUME
+#if LIGHT_VOLUMES
     float path_length = segment.end - segment.begin;
-    float offset = FROXEL_HISTORY == 0 && VISIBILITY == 0 ? segment.offset : 0.5;
+    float offset = FROXEL_HISTORY == 0 && PARTS == 0 ? segment.offset : 0.5;
     vec3 sum = vec3(0.0);
     for (int i = 0; i < 2; ++i) {
         float t = segment.begin + path_length * equal_transmittance(0.5 * (offset + float(i)), fall);

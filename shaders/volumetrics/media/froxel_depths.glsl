@@ -9,13 +9,13 @@ float froxel_far() { return volumetrics.froxel_depths.y; }
 
 // Place in the volume, 0..1, of a view depth, and back, by this frame's distribution.
 float froxel_w(float view_depth) {
-    int distribution = int(volumetrics.options.w);
+    int distribution = int(volumetrics.froxel_distribution);
     if (distribution == FROXEL_TABLE)
         return froxel_w_from_table(view_depth, volumetrics.froxel_begins, volumetrics.froxel_lengths);
     return froxel_w_from_view_depth(distribution, view_depth, volumetrics.froxel_depths.x, volumetrics.froxel_depths.y);
 }
 float froxel_view_depth(float w) {
-    int distribution = int(volumetrics.options.w);
+    int distribution = int(volumetrics.froxel_distribution);
     if (distribution == FROXEL_TABLE)
         return froxel_view_depth_from_table(w, volumetrics.froxel_begins, volumetrics.froxel_lengths);
     return froxel_view_depth_from_w(distribution, w, volumetrics.froxel_depths.x, volumetrics.froxel_depths.y);

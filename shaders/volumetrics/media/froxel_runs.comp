@@ -34,7 +34,7 @@ const Sample NOTHING = Sample(vec4(0.0), vec3(0.0), 0.0, 0.0);
 
 Sample sample_at(ivec3 froxel) {
     Sample s = NOTHING;
-    s.extinction = texelFetch(froxel_extinction, froxel, 0).r;  // alike in all channels: see reason_for_light
+    s.extinction = texelFetch(froxel_extinction, froxel, 0).r;  // alike in all channels: see reason_for_no_parts
     count_work(WORK_TEXTURE_FETCHES, 1u);
     if (s.extinction > 0.0) {
         s.scattering = texelFetch(froxel_scattering, froxel, 0);
@@ -99,8 +99,8 @@ void main() {
     int words = (size.z + 31) / 32;
     int seen_end = column_end(column, size);
     int live_end = min(seen_end, live_slices.y);
-    int changes_begin = SUN_VOLUME ? 0 : live_slices.x;
-    int changes_end = SUN_VOLUME ? seen_end : min(live_end + 1, size.z);
+    int changes_begin = LIGHT_VOLUMES != 0 ? 0 : live_slices.x;
+    int changes_end = LIGHT_VOLUMES != 0 ? seen_end : min(live_end + 1, size.z);
     Ray ray = view_ray((vec2(column) + 0.5) / vec2(size.xy));
     Sample most = column_tolerance(column, live_end, size.z);
     Sample low = NOTHING;
@@ -112,7 +112,7 @@ void main() {
         for (int slice = max(32 * word, changes_begin); slice < end; ++slice) {
             Sample s = NOTHING;
             if (slice >= live_slices.x && slice < live_end) s = sample_at(ivec3(column, slice));
-#if SUN_VOLUME
+#if LIGHT_VOLUMES
             float view_depth = froxel_view_depth((float(slice) + 0.5) / float(size.z));
             vec3 point = ray.origin + ray.direction * (view_depth / ray.forward_cosine);
             s.sun = min(mean_channel(local_sun_optical_depth(point)), SUN_DARK);

@@ -1,5 +1,6 @@
 // The media that fill space, in closed form. HEIGHT_MEDIA: 0 or 1 exponential height medium, or any number up to
-// MAX_HEIGHT_MEDIA; one is by far the most usual, and without a loop several times faster than with it.
+// MAX_HEIGHT_MEDIA; one is by far the most usual, and without a loop several times faster than with it. Programs that
+// ask for their optical depth a few times a pixel do not tell, and have the loop.
 #ifndef VOLUMETRICS_GLOBAL_MEDIA_GLSL
 #define VOLUMETRICS_GLOBAL_MEDIA_GLSL
 
@@ -18,7 +19,7 @@
 #define RAYLEIGH 1
 #endif
 #endif
-#define HEIGHT_COUNT (HEIGHT_MEDIA == 1 ? 1u : volumetrics.counts.x)
+#define HEIGHT_COUNT (HEIGHT_MEDIA == 1 ? 1u : volumetrics.height_media_count)
 
 // Keeps sums and products of optical depths finite; exp(-x) is 0 long before.
 const float MAX_OPTICAL_DEPTH = 1.0e30f;
@@ -80,7 +81,7 @@ Medium global_medium(float y, float direction_y, float path_length) {
 #endif
     }
     m.optical_depth = min(m.optical_depth, MAX_OPTICAL_DEPTH);
-    m.anisotropy = weighted / max(mean_channel(particle_sigma_s(m)), 1.0e-30);
+    if (HEIGHT_COUNT > 0u) m.anisotropy = weighted / max(mean_channel(particle_sigma_s(m)), 1.0e-30);
 #endif
     return m;
 }

@@ -35,7 +35,7 @@ bool is_seen(ivec3 froxel, ivec3 size) {
 
 void main() {
     ivec3 size = imageSize(froxel_scattering);
-    uint words = (volumetrics.counts.y + 31u) / 32u;
+    uint words = (volumetrics.local_media_count + 31u) / 32u;
     uint group = gl_WorkGroupID.x + gl_NumWorkGroups.x * gl_WorkGroupID.y;
     if (group >= tile_count) return;
     uint first = group * (1u + words);

@@ -7,7 +7,7 @@
 
 // The phase function of the settings, which all media have but those of Rayleigh's.
 float particle_phase(float anisotropy, float cos_theta) {
-    return phase(int(volumetrics.options.x), anisotropy, volumetrics.phase_back.x, volumetrics.phase_back.y, cos_theta);
+    return phase(int(volumetrics.phase), anisotropy, volumetrics.back_anisotropy, volumetrics.back_weight, cos_theta);
 }
 
 // The volume scattering function [1/(m sr)]: scattering coefficient times phase function, summed over the media. For

@@ -1,15 +1,13 @@
 // One direction of a separable filter of 2 radius + 1 taps, of TEXTURES textures alike. DEPTH 0 knows no depth, 1
 // weighs taps by their depth against the pixel's, 2 also by their depth against the plane that the pixel lies in.
-// Taps outside of the picture are left out, and the rest is renormalised. NARROWS: see narrowing().
+// Taps outside of the picture are left out, and the rest is renormalised. With a variance the kernel narrows: see narrowing().
 #include "shaders/lib/work.glsl"
 #include "shaders/lib/pack.glsl"
 #include "shaders/volumetrics/reconstruction/depth_weight.glsl"
 
 layout(binding = 0) uniform sampler2D depth_texture;
-#if NARROWS
 layout(binding = 1) uniform sampler2D frames_texture;  // y frames in the mean that the pixel is, at least 1
-uniform float kernel_variance;                         // px²
-#endif
+uniform float kernel_variance;                         // px²; 0: see narrowing(), which is left out
 layout(binding = 2) uniform sampler2D values[TEXTURES];
 uniform int radius;        // at most 7 px
 uniform vec4 weights_0_3;  // by distance from the centre, px; the first is positive
@@ -63,7 +61,6 @@ float plane_slope(float d, vec2 texel_step) {
 }
 #endif
 
-#if NARROWS
 // Noise in the mean over n frames falls, what a wide kernel smears stays. An edge's squared error grows with the width
 // sigma, that of noise of variance 1 / n falls with sigma² in two directions: their sum is least for sigma ~ n^(-1/3). A
 // kernel of variance v is taken to be right for one frame, or a wider one of 6 px² (of 4 px²: up to 4% less error, and in
@@ -77,15 +74,15 @@ float narrowing() {
     float inverse = pow(n, 2.0 / 3.0) / max(kernel_variance, variance_of_one_frame);
     return 0.5 * max(min(inverse, 1.0 / least_variance) - 1.0 / kernel_variance, 0.0);
 }
-#endif
 
 void main() {
     int reach = radius;
-#if NARROWS
-    float narrow = narrowing();
-    // As far as exp(-k x²) > 1 / 512.
-    reach = min(radius, int(sqrt(6.24 / max(narrow, 1.0e-3))));
-#endif
+    float narrow = 0.0;
+    if (kernel_variance > 0.0) {
+        narrow = narrowing();
+        // As far as exp(-k x²) > 1 / 512.
+        reach = min(radius, int(sqrt(6.24 / max(narrow, 1.0e-3))));
+    }
     vec4 sums[TEXTURES];
     for (int k = 0; k < TEXTURES; ++k) sums[k] = textureLod(values[k], uv, 0.0) * weights_0_3.x;
     float total = weights_0_3.x;
@@ -101,9 +98,7 @@ void main() {
 #endif
     for (int i = 1; i <= reach; ++i) {
         float spatial = i < 4 ? weights_0_3[i] : weights_4_7[i - 4];
-#if NARROWS
-        spatial *= exp(-narrow * float(i * i));
-#endif
+        if (narrow > 0.0) spatial *= exp(-narrow * float(i * i));
         for (int side = -1; side <= 1; side += 2) {
             float offset = float(i * side);
             vec2 p = uv + texel * direction * offset;

@@ -8,7 +8,7 @@
 //     |P' - P''| / min(|P'|, |P''|) = max(z', z'') / min(z', z'') - 1 = D,    A = exp(-scale D).
 // As a share of the distance it is the same in the middle of the screen and at its edge. P' is compared with each of the
 // four pixels around its place, and with where the pixel's plane passes there: 1 / z is linear over a plane on screen, so
-// that floors seen at grazing angles are accepted. CLIP and REJECT: see clipped() and change_of().
+// that floors seen at grazing angles are accepted. REJECT: see change_of().
 #include "shaders/lib/pack.glsl"
 #include "shaders/lib/sampling_noise.glsl"
 #include "shaders/lib/work.glsl"
@@ -27,6 +27,7 @@ uniform bool low;            // the target is of the chosen resolution, not of t
 uniform bool motion;         // motion_texture is there
 uniform bool by_depth;       // A is not always 1
 uniform bool counted;        // accumulate
+uniform bool clip;           // see clipped()
 uniform float scale;
 uniform float least_weight;  // W
 uniform float most_frames;   // n + 1 at most
@@ -168,7 +169,6 @@ vec4 usable(vec4 v) {
     return all(lessThanEqual(abs(v), vec4(HALF_MAX))) ? max(v, vec4(0.0)) : vec4(0.0, 0.0, 0.0, 1.0);
 }
 
-#if CLIP
 // What is kept, within 2.5 standard deviations of the mean of the 3x3 pixels of the new frame around, or `least_width`; the
 // pixel's own value is always within. Fewer cut off light that few samples find, and a still picture darkens.
 vec4 clipped(vec4 kept, int k, vec4 now, ivec2 pixel, ivec2 size, float least_width) {
@@ -184,7 +184,6 @@ vec4 clipped(vec4 kept, int k, vec4 now, ivec2 pixel, ivec2 size, float least_wi
     vec4 width = max(2.5 * sqrt(max(squares / 9.0 - sum * sum, vec4(0.0))), vec4(vec3(least_width), 0.0));
     return clamp(kept, now + min(sum - width, vec4(0.0)), now + max(sum + width, vec4(0.0)));
 }
-#endif
 
 #if REJECT
 // Did the light change? The means of 5x5 pixels of new frame and history differ by d: noise, of a standard deviation sigma that
@@ -275,10 +274,9 @@ void main() {
     statistics = vec2(change.deviation, change.drift);
     least_width = 2.0 * change.deviation;
 #endif
-#if CLIP
-    for (int k = 0; k < TEXTURES; ++k)
-        kept.values[k] = clipped(kept.values[k], k, now[k], pixel, size, k == 0 ? least_width : 0.0);
-#endif
+    if (clip)
+        for (int k = 0; k < TEXTURES; ++k)
+            kept.values[k] = clipped(kept.values[k], k, now[k], pixel, size, k == 0 ? least_width : 0.0);
 
     float frames = min(kept.statistics.x, most_frames - 1.0);
     float known = frames_known(surface.x);

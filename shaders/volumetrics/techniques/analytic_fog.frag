@@ -66,7 +66,7 @@ void main() {
     float depth = texelFetch(depth_texture, ivec2(gl_FragCoord.xy), 0).r;
     count_work(WORK_TEXTURE_FETCHES, 1u);
     float surface = ray_distance_from_view_depth(view_depth_from_buffer(depth, volumetrics.eye.w), ray.forward_cosine);
-    int mode = int(volumetrics.fog.x);
+    int mode = int(volumetrics.fog_mode);
     ClosedFormFog fog;
     if (mode == FOG_HEIGHT)
         fog = fog_over_ray(ray, surface, is_background(depth), ambient);

@@ -14,6 +14,6 @@ void main() {
     vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1);
     float near = volumetrics.eye.w;
     gl_Position = target_clip(vec4(mix(billboard.rect.xy, billboard.rect.zw, corner), near / max(billboard.slab.x, near), 1.0));
-    ambient = volumetrics.options.z != 0u ? ambient_radiance() : vec3(0.0);
+    ambient = volumetrics.has_ambient != 0u ? ambient_radiance() : vec3(0.0);
     slab = billboard.slab.xyz;
 }

@@ -1,4 +1,5 @@
 // The froxels' light and transmittance at each pixel's depth.
+#define LOCAL_MEDIA 1
 #include "shaders/lib/pack.glsl"
 #include "shaders/volumetrics/frame/apply.glsl"
 

@@ -7,10 +7,14 @@
 //
 // FROXEL_HISTORY: sun and lamps are stored apart, unshadowed, with the visible share of them, which froxel_history.comp averages over the
 // frames. Visibility is then sampled all over the froxel, not on the column's ray alone.
+//
+// LOCAL_MEDIA: local media are in view or dim light.
+#define LIGHT_VOLUMES LOCAL_MEDIA
+
 #include "shaders/lib/sampling_noise.glsl"
 #include "shaders/lib/pack.glsl"
 #include "shaders/volumetrics/media/froxel_grid.glsl"
-#include "shaders/volumetrics/light/parted.glsl"
+#include "shaders/volumetrics/light/part.glsl"
 #include "shaders/volumetrics/light/segment_light.glsl"
 
 layout(local_size_x = 16, local_size_y = 16) in;
@@ -23,7 +27,6 @@ layout(binding = 0) uniform sampler2D farthest_view_depth;
 layout(binding = 1) uniform sampler3D froxel_scattering;  // rgb sigma_s, a sum of anisotropy * mean sigma_s
 layout(binding = 2) uniform sampler3D froxel_extinction;  // rgb sigma_t
 layout(binding = 3) uniform sampler3D froxel_emission;
-uniform int local_emission;  // 1: some local media emit; a uniform, for a permutation would save next to nothing
 #endif
 layout(rgba16f, binding = 0) writeonly uniform image3D froxel_radiance;
 #if FROXEL_HISTORY
@@ -73,14 +76,16 @@ vec3 beside(Ray ray, vec2 uv) {
 // Adds the local media of a froxel to the segment and its medium.
 void add_local_media(ivec3 froxel, inout Segment segment, inout Medium m) {
 #if LOCAL_MEDIA
-    count_work(WORK_TEXTURE_FETCHES, 2u + uint(local_emission));
-    vec4 scattering = texelFetch(froxel_scattering, froxel, 0);
-    vec3 sigma_t = texelFetch(froxel_extinction, froxel, 0).rgb;
-    if (local_emission != 0) m.emission += texelFetch(froxel_emission, froxel, 0).rgb;
-    add_particles(scattering.rgb, scattering.a, m);
-    m.optical_depth += sigma_t * (segment.end - segment.begin);
-    segment.sigma_s += scattering.rgb;
-    segment.sigma_t += sigma_t;
+    if (volumetrics.local_media_count > 0u) {
+        count_work(WORK_TEXTURE_FETCHES, 2u + volumetrics.local_emission);
+        vec4 scattering = texelFetch(froxel_scattering, froxel, 0);
+        vec3 sigma_t = texelFetch(froxel_extinction, froxel, 0).rgb;
+        if (volumetrics.local_emission != 0u) m.emission += texelFetch(froxel_emission, froxel, 0).rgb;
+        add_particles(scattering.rgb, scattering.a, m);
+        m.optical_depth += sigma_t * (segment.end - segment.begin);
+        segment.sigma_s += scattering.rgb;
+        segment.sigma_t += sigma_t;
+    }
 #endif
     segment.anisotropy = m.anisotropy;
 }
@@ -120,7 +125,7 @@ void store_slice(ivec3 froxel, SliceLight slice, Extinction transmittance) {
     imageStore(froxel_sun, froxel, round_to_half(vec4(scale * light.sun, 0.0)));
 #endif
 #if LAMPS
-    vec4 lamps = visible_share(Parted(light.lamps, light.unshadowed_lamps));
+    vec4 lamps = visible_share(Part(light.lamps, light.unshadowed_lamps));
     if (lamps.a > 0.0) visibility.rgb = lamps.rgb;
     imageStore(froxel_lamps, froxel, round_to_half(vec4(scale * light.unshadowed_lamps, 0.0)));
 #endif
@@ -144,7 +149,7 @@ void main() {
     }
 
     Ray ray = view_ray((vec2(froxel.xy) + 0.5) / vec2(size.xy));
-    vec3 ambient = volumetrics.options.z != 0u ? ambient_radiance() : vec3(0.0);
+    vec3 ambient = volumetrics.has_ambient != 0u ? ambient_radiance() : vec3(0.0);
     float cut = ray_distance_from_view_depth(farthest, ray.forward_cosine);
     float begin = ray_distance_from_view_depth(froxel_slice_begin(froxel.z, size.z), ray.forward_cosine);
     Extinction depth = global_optical_depth(ray, 0.0, begin);
@@ -161,7 +166,7 @@ void main() {
         Extinction transmittance = exp(-depth);
         SliceLight slice = SliceLight(SegmentLight(vec3(0.0), vec3(0.0), -1.0, vec3(0.0), vec3(0.0)), Extinction(1.0));
 #if FROXEL_HISTORY
-        visibility_direction = jittered_direction(ray, froxel, column_width, column_height);
+        ray.visibility_direction = jittered_direction(ray, froxel, column_width, column_height);
 #endif
         if (largest(transmittance) > OPAQUE)
             slice = slice_light(ray, froxel, begin, end, cut, ambient, sun_front);

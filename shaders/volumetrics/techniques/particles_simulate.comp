@@ -75,7 +75,7 @@ bool in_view(vec3 center, vec4 clip) {
 vec3 local_optical_depth(vec3 direction, float path_length) {
     const int SAMPLES = 4;  // where density varies
     vec3 depth = vec3(0.0);
-    for (uint i = 0u; i < volumetrics.counts.y; ++i) {
+    for (uint i = 0u; i < volumetrics.local_media_count; ++i) {
         LocalMedium local = local_media[i];
         vec2 inside = inside_shape(local, volumetrics.eye.xyz, direction, 0.0, path_length);
         if (inside.x >= inside.y) continue;
@@ -126,7 +126,8 @@ vec3 lamp_light(Ray ray, float begin, float end, Medium m) {
 ParticleSprite lit_particle(vec3 center, vec4 clip, float share) {
     float distance = max(length(center), 1.0e-4);
     vec2 uv = clip.w > 1.0e-4 ? clamp(0.5 * clip.xy / clip.w + 0.5, 0.0, 1.0) : vec2(0.5);
-    Ray ray = Ray(volumetrics.eye.xyz, center / distance, max(clip.w / distance, 0.01), uv);
+    vec3 direction = center / distance;
+    Ray ray = Ray(volumetrics.eye.xyz, direction, max(clip.w / distance, 0.01), uv, direction);
     float begin = max(distance - radius, 0.0);
     float end = distance + radius;
     vec3 point = ray.origin + center;
@@ -146,7 +147,7 @@ ParticleSprite lit_particle(vec3 center, vec4 clip, float share) {
     Extinction front = exp(-to_extinction(global_depth)) * to_extinction(local_transmittance);
     Extinction through = to_extinction(diameter.effective_length);
 
-    vec3 ambient = volumetrics.options.z != 0u ? ambient_radiance() : vec3(0.0);
+    vec3 ambient = volumetrics.has_ambient != 0u ? ambient_radiance() : vec3(0.0);
     vec3 light = m.sigma_s * ambient;
     if (medium >= 0) light += m.emission;
 #if HAS_SUN

@@ -110,7 +110,7 @@ float visibility_on_screen(Ray ray, float depth, float surface) {
     Extinction sun_front = to_extinction(sun_optical_depth(ray.origin.y, -sun_direction()));
     Shares shares = Shares(sun_front, depth, gathered(ray, visible_end(ray, surface), sun_front));
     Line line = line_to_sun(ray.uv);
-    uint samples = uint(volumetrics.fog.y);
+    uint samples = uint(volumetrics.radial_samples);
     float offset = noise_offset(uvec2(gl_FragCoord.xy));
     float place = volumetrics.noise.x != NOISE_NONE ? fract(offset * 39.55) : 0.5;  // another sequence than the samples'
     uint shadowed = 0u;
@@ -136,12 +136,12 @@ float visibility_on_screen(Ray ray, float depth, float surface) {
 #else
 float visibility_on_screen(Ray ray, float depth, float surface) {
     Line line = line_to_sun(ray.uv);
-    uint samples = uint(volumetrics.fog.y);
+    uint samples = uint(volumetrics.radial_samples);
     float offset = noise_offset(uvec2(gl_FragCoord.xy));
     float lit = 0.0, total = 0.0;
     for (uint i = 0u; i < samples; ++i) {
         float u = line.reach * (float(i) + offset) / float(samples);
-        float weight = pow(volumetrics.fog.z, u);
+        float weight = pow(volumetrics.radial_decay, u);
         float way = depth * (1.0 - u);  // buffer depth is near / view depth, and linear along the line
         if (depth_on_line(line, u) <= 1.001 * way) lit += weight;
         total += weight;
@@ -157,7 +157,7 @@ void main() {
     count_work(WORK_TEXTURE_FETCHES, 1u);
     float surface = ray_distance_from_view_depth(view_depth_from_buffer(depth, volumetrics.eye.w), ray.forward_cosine);
     float on_screen = sun_on_screen();
-    float visibility = volumetrics.fog.w;
+    float visibility = volumetrics.radial_unseen;
     if (on_screen > 0.0) visibility = mix(visibility, visibility_on_screen(ray, depth, surface), on_screen);
     out_share = round_to_half(vec4(vec3(visibility), 1.0));
     flush_work();

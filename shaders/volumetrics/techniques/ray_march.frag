@@ -4,31 +4,32 @@
 // Global media, transmittances and the inverse square of lamps are integrated in closed form; only local media and
 // visibility are sampled, once a segment, at an offset that differs from pixel to pixel.
 //
-// VISIBILITY: the unshadowed light of sun and lamps, without noise, and the visible share of it are stored apart
+// PARTS: the unshadowed light of sun and lamps, without noise, and the visible share of it are stored apart
 // (relight.frag), so that only the latter is filtered. Local media are then sampled in each run of
 // froxel slices in which they hardly change.
-#ifndef VISIBILITY
-#define VISIBILITY 0
+//
+// LOCAL_MEDIA: 1 they only dim light, 2 they are in view too.
+#define LIGHT_VOLUMES (LOCAL_MEDIA > 0)
+#ifndef PARTS
+#define PARTS 0
 #endif
-#define SUN_APART (VISIBILITY == 1 && HAS_SUN == 1)
-#define LAMPS_APART (VISIBILITY == 1 && LAMPS == 2)
+#define SUN_APART (PARTS == 1 && HAS_SUN == 1)
+#define LAMPS_APART (PARTS == 1 && LAMPS == 2)
 
 #include "shaders/volumetrics/media/froxel_depths.glsl"
 #include "shaders/volumetrics/media/froxel_runs.glsl"
 #include "shaders/volumetrics/reconstruction/noise_offset.glsl"
-#include "shaders/volumetrics/light/parted.glsl"
+#include "shaders/volumetrics/light/part.glsl"
 #include "shaders/volumetrics/light/segment_light.glsl"
 #include "shaders/lib/pack.glsl"
 
 layout(binding = 0) uniform sampler2D depth_texture;
-#if LOCAL_MEDIA
+#if LOCAL_MEDIA == 2
 layout(binding = 1) uniform sampler3D froxel_scattering;  // rgb sigma_s, a sum of anisotropy * mean sigma_s
 layout(binding = 2) uniform sampler3D froxel_extinction;  // rgb sigma_t
-#endif
-#if LOCAL_MEDIA == 2
 layout(binding = 3) uniform sampler3D froxel_emission;
 #endif
-#if VISIBILITY && LOCAL_MEDIA
+#if PARTS && LOCAL_MEDIA == 2
 layout(binding = 4) uniform usampler2D froxel_runs;
 #endif
 
@@ -55,15 +56,13 @@ const float OPAQUE = 2.98e-8;
 // Adds the local media at a place w of the froxels to a segment of the global ones; returns their sigma_t.
 vec3 add_local_media(Ray ray, float w, float path_length, inout Medium m, inout vec3 sigma_s) {
     vec3 sigma_t = vec3(0.0);
-#if LOCAL_MEDIA
+#if LOCAL_MEDIA == 2
     if (w > 1.0) return sigma_t;
     vec3 uvw = vec3(ray.uv, w);
-    count_work(WORK_TEXTURE_FETCHES, 1u + uint(LOCAL_MEDIA));
+    count_work(WORK_TEXTURE_FETCHES, 2u + volumetrics.local_emission);
     vec4 scattering = textureLod(froxel_scattering, uvw, 0.0);
     sigma_t = textureLod(froxel_extinction, uvw, 0.0).rgb;
-#if LOCAL_MEDIA == 2
-    m.emission += textureLod(froxel_emission, uvw, 0.0).rgb;
-#endif
+    if (volumetrics.local_emission != 0u) m.emission += textureLod(froxel_emission, uvw, 0.0).rgb;
     add_particles(scattering.rgb, scattering.a, m);
     m.optical_depth += sigma_t * path_length;
     sigma_s += scattering.rgb;
@@ -71,9 +70,9 @@ vec3 add_local_media(Ray ray, float w, float path_length, inout Medium m, inout 
     return sigma_t;
 }
 
-#if VISIBILITY
-Parted sun_light = Parted(vec3(0.0), vec3(0.0));
-Parted lamp_light = Parted(vec3(0.0), vec3(0.0));
+#if PARTS
+Part sun_light = Part(vec3(0.0), vec3(0.0));
+Part lamp_light = Part(vec3(0.0), vec3(0.0));
 
 void add_lamps(Ray ray, Segment segment, vec3 transmittance) {
 #if LAMPS == 2
@@ -84,7 +83,7 @@ void add_lamps(Ray ray, Segment segment, vec3 transmittance) {
 }
 #endif
 
-#if VISIBILITY && LOCAL_MEDIA
+#if PARTS && LOCAL_MEDIA == 2
 const int MAX_PARTS = 64;  // of a segment that are told apart for the place of its visibility
 FroxelRun run = FroxelRun(0, 0, 0.0, false, 0, -1, uvec2(0u));
 
@@ -93,7 +92,7 @@ Extinction local_sun_front = Extinction(0.0);  // optical depth of the local med
 
 // As sun_segment, through local media too.
 SunSegment sun_part(Ray ray, float begin, float end, Optics optics, inout Extinction front) {
-#if SUN_VOLUME
+#if LIGHT_VOLUMES
     Extinction back = to_extinction(sun_optical_depth(ray.origin.y + ray.direction.y * end, -sun_direction()));
     Extinction local_back = to_extinction(local_sun_optical_depth(ray.origin + ray.direction * end));
     SunSegment sun = sun_between(optics.depth, front + local_sun_front, back + local_back, end - begin);
@@ -173,14 +172,14 @@ void march_segment(Ray ray, float a, float b, float offset, inout Extinction sun
     count_work(WORK_MEDIUM_SAMPLES, 1u);
     vec3 constant_sigma_s = volumetrics.homogeneous_sigma_s.rgb;
     vec3 constant_sigma_t = volumetrics.homogeneous_sigma_t.rgb;
-#if LOCAL_MEDIA
+#if LOCAL_MEDIA == 2
     float w = froxel_w((a + offset * path_length) * ray.forward_cosine);
     constant_sigma_t += add_local_media(ray, w, path_length, m, constant_sigma_s);
 #endif
 
     Optics optics = medium_optics(m, path_length);
     Segment segment = Segment(a, b, offset, m.anisotropy, constant_sigma_s, constant_sigma_t);
-#if VISIBILITY
+#if PARTS
     SegmentLight light = segment_light_parts(ray, segment, m, optics, ambient, sun_front);
     march.radiance += march.transmittance * light.diffuse;
     sun_light.visible += march.transmittance * light.sun_visibility * light.sun;
@@ -202,7 +201,7 @@ void main() {
     float surface = ray_distance_from_view_depth(view_depth_from_buffer(depth, volumetrics.eye.w), ray.forward_cosine);
     // Without a global medium only the depths that hold local ones.
     vec2 medium = volumetrics.medium_depths.xy / ray.forward_cosine;
-    float end = min(surface, min(volumetrics.march.x, medium.y));
+    float end = min(surface, min(volumetrics.max_distance, medium.y));
     float offset = noise_offset(uvec2(gl_FragCoord.xy));
 
     March march = March(vec3(0.0), Extinction(1.0));
@@ -210,22 +209,22 @@ void main() {
 #if HAS_SUN
     sun_front = to_extinction(sun_optical_depth(ray.origin.y, -sun_direction()));
 #endif
-#if VISIBILITY && LOCAL_MEDIA
+#if PARTS && LOCAL_MEDIA == 2
     run = froxel_run_before(textureSize(froxel_scattering, 0).z);
 #if HAS_SUN
     local_sun_front = to_extinction(local_sun_optical_depth(ray.origin + ray.direction * medium.x));
 #endif
 #endif
     float a = medium.x;
-    float step_length = (end - a) * volumetrics.march.y;
-    uint steps = a < end ? volumetrics.counts.z : 0u;
+    float step_length = (end - a) * volumetrics.first_step;
+    uint steps = a < end ? volumetrics.steps : 0u;
     for (uint i = 0u; i < steps && largest(march.transmittance) > OPAQUE; ++i) {
         float b = i + 1u == steps ? end : min(a + step_length, end);
         march_segment(ray, a, b, offset, sun_front, march);
-        step_length *= volumetrics.march.z;
+        step_length *= volumetrics.step_growth;
         a = b;
     }
-    if (surface > end && end == volumetrics.march.x) march_tail(ray, end, surface, is_background(depth), ambient, sun_front, march);
+    if (surface > end && end == volumetrics.max_distance) march_tail(ray, end, surface, is_background(depth), ambient, sun_front, march);
 
     out_scattering = round_to_half(vec4(march.radiance, average(march.transmittance)));
 #if CHROMATIC

@@ -49,12 +49,12 @@ Span media_span(Ray ray, ivec2 pixel) {
     span.surface = ray_distance_from_view_depth(view_depth_from_buffer(depth, volumetrics.eye.w), ray.forward_cosine);
     span.endless = is_background(depth);
     span.begin = 0.0;
-    span.end = min(span.surface, volumetrics.march.x);
+    span.end = min(span.surface, volumetrics.max_distance);
     if (has_global != 0) return span;
     span.begin = span.surface;
     span.end = 0.0;
 #if LOCAL_MEDIA
-    for (uint i = 0u; i < volumetrics.counts.y; ++i) {
+    for (uint i = 0u; i < volumetrics.local_media_count; ++i) {
         vec2 inside = inside_shape(local_media[i], ray.origin, ray.direction, 0.0, span.surface);
         if (inside.x >= inside.y) continue;
         span.begin = min(span.begin, inside.x);
@@ -81,9 +81,9 @@ struct MediaMask {
     uint words[MASK_WORDS];
 };
 
-uint mask_word_count() { return (volumetrics.counts.y + 31u) / 32u; }
+uint mask_word_count() { return (volumetrics.local_media_count + 31u) / 32u; }
 uint mask_word(MediaMask mask, uint word) {
-    uint rest = volumetrics.counts.y - 32u * word;
+    uint rest = volumetrics.local_media_count - 32u * word;
     return word < MASK_WORDS ? mask.words[word] : rest < 32u ? (1u << rest) - 1u : ~0u;
 }
 
@@ -92,7 +92,7 @@ MediaMask media_near(vec3 a, vec3 direction, float path_length, float distance) 
     MediaMask mask;
     for (uint word = 0u; word < MASK_WORDS; ++word) mask.words[word] = 0u;
 #if LOCAL_MEDIA
-    for (uint i = 0u; i < min(volumetrics.counts.y, 32u * MASK_WORDS); ++i) {
+    for (uint i = 0u; i < min(volumetrics.local_media_count, 32u * MASK_WORDS); ++i) {
         vec3 p = to_shape(local_media[i], a);
         vec3 d = mat3(local_media[i].world_to_shape) * direction;
         float radius = shape_radius(local_media[i]) + distance;
@@ -128,7 +128,7 @@ void add_local_media(Ray ray, float a, float b, MediaMask mask, inout Medium m) 
 vec3 local_optical_depth(vec3 point, vec3 direction, float path_length, MediaMask mask, inout int work) {
     vec3 depth = vec3(0.0);
 #if LOCAL_MEDIA
-    if (volumetrics.options.y == 0u) return depth;
+    if (volumetrics.light_transmittance == 0u) return depth;
     for (uint word = 0u; word < mask_word_count(); ++word) {
         for (uint bits = mask_word(mask, word); bits != 0u; bits &= bits - 1u) {
             LocalMedium medium = local_media[32u * word + uint(findLSB(bits))];

@@ -83,9 +83,9 @@ vec3 scattered(Ray ray, Span span, float begin, float t, GpuLight light, uint in
                  local_depth_to(span, t) + lamp_optical_depth(point.y, to_lamp, distance) +
                  local_optical_depth(point, to_lamp, distance, masks.towards_lamp, work);
 #if LOCAL_MEDIA
-    work += (1 + MEDIA_NOISE_OCTAVES) * int(volumetrics.counts.y);
+    work += (1 + MEDIA_NOISE_OCTAVES) * int(volumetrics.local_media_count);
 #endif
-    work += 4 * int(volumetrics.counts.x);
+    work += 4 * int(volumetrics.height_media_count);
     return volume_scattering(m, dot(to_lamp, ray.direction)) * exp(-depth) * strength;
 }
 
@@ -105,7 +105,7 @@ vec3 lamp_over_steps(Ray ray, Span span, float begin, FoundLamp found, MediaMask
         count_work(WORK_LIGHT_EVALUATIONS, 1u);
         sum += scattered(ray, span, begin, t, light, found.index, masks, work);
     }
-    work += lamp_samples + int(volumetrics.counts.y);
+    work += lamp_samples + int(volumetrics.local_media_count);
     return light.intensity_radius.rgb * sum * (integral.total / float(lamp_samples));
 }
 

@@ -35,7 +35,7 @@ void main() {
     if (any(greaterThanEqual(pixel, imageSize(radiance_image)))) return;
     Ray ray = view_ray((vec2(pixel) + 0.5) * volumetrics.viewport.zw);
     Span span = media_span(ray, pixel);
-    vec3 ambient = volumetrics.options.z != 0u ? ambient_radiance() : vec3(0.0);
+    vec3 ambient = volumetrics.has_ambient != 0u ? ambient_radiance() : vec3(0.0);
     March march;
     march.radiance = imageLoad(radiance_image, pixel).rgb;
     vec3 depth = imageLoad(optical_depth_image, pixel).rgb;

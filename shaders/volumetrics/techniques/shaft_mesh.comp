@@ -82,7 +82,7 @@ bool dark(vec3 relative) {
 
 // w of the surface, or where no ray passes: below all of them where the sun reaches everywhere, above them where nowhere.
 float surface_height(Wedge wedge, vec3 across, float radius, float first_radius, float bottom) {
-    float farthest = volumetrics.march.x;
+    float farthest = volumetrics.max_distance;
     float r = max(radius, first_radius);
     vec2 range = wedge.slopes * r;
     if (radius == 0.0) range = vec2(min(range.x, -0.05 * r), max(range.y, 0.05 * r));  // the eye itself
@@ -102,8 +102,8 @@ float surface_height(Wedge wedge, vec3 across, float radius, float first_radius,
 }
 
 float grid_radius(int row, int rows) {
-    float growth = log(1.0 + volumetrics.march.x / GROWTH_RADIUS);
-    return volumetrics.march.x * (exp(growth * float(row) / float(rows)) - 1.0) / (exp(growth) - 1.0);
+    float growth = log(1.0 + volumetrics.max_distance / GROWTH_RADIUS);
+    return volumetrics.max_distance * (exp(growth * float(row) / float(rows)) - 1.0) / (exp(growth) - 1.0);
 }
 
 void main() {

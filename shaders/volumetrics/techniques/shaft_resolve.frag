@@ -2,7 +2,7 @@
 // faces of the sun's shadow volume, and lamps. A lamp's volume is its cone or the sphere of its range; it needs no triangles:
 // the part of the ray in it is exact (lamp_reach). Its inverse square is in closed form; shadows are sampled at equal
 // angles as seen from the lamp, once in each part, at an offset that differs from pixel to pixel. That is all that is sampled:
-// sun, ambient light, emission and transmittance have no noise. VISIBILITY: the lamps' unshadowed light and the visible share
+// sun, ambient light, emission and transmittance have no noise. PARTS: the lamps' unshadowed light and the visible share
 // of it are stored apart (relight.frag), so that a filter takes the latter alone.
 //
 // Cannot: local media; lamps behind max_distance; shadow edges finer than the grid, or several edges on one line towards the
@@ -12,7 +12,7 @@
 #if LAMPS
 #include "shaders/volumetrics/light/lamps.glsl"
 #include "shaders/volumetrics/reconstruction/noise_offset.glsl"
-#include "shaders/volumetrics/light/parted.glsl"
+#include "shaders/volumetrics/light/part.glsl"
 uniform int shaft_lamp_parts;
 #endif
 
@@ -24,14 +24,14 @@ layout(location = 0) out vec4 out_scattering;
 #if CHROMATIC
 layout(location = 1) out vec4 out_transmittance;
 #endif
-#if VISIBILITY
+#if PARTS
 layout(location = 1 + CHROMATIC) out vec4 out_lamps;
 layout(location = 2 + CHROMATIC) out vec4 out_lamps_share;
 #endif
 
 #if LAMPS
 // Of parts that gather the same share of the inverse square, the one from a part's begin to its end, with its own shadow.
-void add_lamp_in_parts(Ray ray, Segment segment, FoundLamp found, inout Parted light) {
+void add_lamp_in_parts(Ray ray, Segment segment, FoundLamp found, inout Part light) {
     Reach whole = found.reach;
     float a = whole.begin - found.lamp.t_closest;
     float span = whole.end - whole.begin;
@@ -46,11 +46,11 @@ void add_lamp_in_parts(Ray ray, Segment segment, FoundLamp found, inout Parted l
     }
 }
 
-Parted lamps_to(Ray ray, float end) {
+Part lamps_to(Ray ray, float end) {
     Medium m = global_medium(ray.origin.y, ray.direction.y, end);
     Segment segment = Segment(0.0, end, noise_offset(uvec2(gl_FragCoord.xy)), m.anisotropy, volumetrics.homogeneous_sigma_s.rgb,
                               volumetrics.homogeneous_sigma_t.rgb);
-    Parted light = Parted(vec3(0.0), vec3(0.0));
+    Part light = Part(vec3(0.0), vec3(0.0));
     LampWalk walk = lamp_walk(ray, segment);
     FoundLamp found;
     while (next_lamp(ray, segment, walk, found)) add_lamp_in_parts(ray, segment, found, light);
@@ -81,8 +81,8 @@ void main() {
     count_work(WORK_TEXTURE_FETCHES, 1u);
 #endif
 #if LAMPS
-    Parted lamps = lamps_to(ray, min(surface, volumetrics.march.x));
-#if VISIBILITY
+    Part lamps = lamps_to(ray, min(surface, volumetrics.max_distance));
+#if PARTS
     out_lamps = round_to_half(vec4(lamps.whole, 0.0));
     out_lamps_share = visible_share(lamps);
 #else

@@ -51,6 +51,7 @@ class HostTechnique : public GlTest {
         host.sun_illuminance = glm::vec3(8);
         host.shadows = 3;  // x < 0
         host.size = {16, 8};
+        host.vertical_fov = 0.2F;  // all of it below y = 4
         SettingsSet set;
         set.add(settings_table(), &settings);
         set.set("technique=one_sample");

@@ -145,7 +145,7 @@ TEST_F(VolumetricsParticles, LocalMediaUnderEqualLightGainAndLoseNothing) {
             sum += energy / (48 * 32);
         }
         EXPECT_NEAR(sum, 1, mean) << sigma_s;
-        EXPECT_LT(mean_and_deviation(frame.transmittance).x, std::exp(-sigma_s * 10));  // and the global medium
+        EXPECT_LE(mean_and_deviation(frame.transmittance).x, std::exp(-sigma_s * 10));  // and the global medium
     }
 }
 

@@ -59,8 +59,11 @@ TEST_F(RadialShafts, WithoutOccludersItIsTheClosedForm) {
             const Frame expected = fog();
             for (const RadialOcclusion occlusion : both) {
                 const Frame frame = host.render(settings(occlusion));
-                EXPECT_EQ(frame.scattering.pixels, expected.scattering.pixels)
-                    << at.x << ' ' << at.y << ' ' << sign;
+                // The sun is stored apart from the rest: half floats are rounded three times instead of once.
+                for (std::size_t i = 0; i < expected.scattering.pixels.size(); ++i)
+                    ASSERT_NEAR(frame.scattering.pixels[i], expected.scattering.pixels[i],
+                                expected.scattering.pixels[i] / 1024)
+                        << at.x << ' ' << at.y << ' ' << sign;
                 EXPECT_EQ(frame.transmittance.pixels, expected.transmittance.pixels);
             }
         }
@@ -246,7 +249,7 @@ TEST_F(RadialShafts, WorkIsThatOfItsSamplesAndNoneWithTheSunBehind) {
     EXPECT_EQ(work[int(gl::Work::texture_fetches)], 64U);
     EXPECT_EQ(work[int(gl::Work::shadow_lookups)], 0U);
     EXPECT_THAT(host.render(s).live_passes,
-                ElementsAre("volumetrics/radial_visibility", "volumetrics/radial_shafts"));
+                ElementsAre("volumetrics/radial_visibility", "volumetrics/radial_shafts", "volumetrics/relight"));
 }
 
 TEST_F(RadialShafts, BlurTakesTheNoiseOfTheDitherAndLeavesTheFog) {
@@ -258,10 +261,13 @@ TEST_F(RadialShafts, BlurTakesTheNoiseOfTheDitherAndLeavesTheFog) {
     Settings s = settings(RadialOcclusion::intervals);
     s.filter = volumetrics::Filter::gaussian15;
     const Frame frame = host.render(s);
-    EXPECT_THAT(frame.live_passes, ElementsAre("volumetrics/radial_visibility", "volumetrics/filter_horizontal",
-                                               "volumetrics/filter_vertical", "volumetrics/radial_shafts"));
+    EXPECT_THAT(frame.live_passes, ElementsAre("volumetrics/radial_visibility", "volumetrics/radial_shafts",
+                                               "volumetrics/filter_horizontal", "volumetrics/filter_vertical",
+                                               "volumetrics/relight"));
     // The fog's edge at the horizon stays as sharp as it is.
-    EXPECT_EQ(frame.scattering.pixels, fog().scattering.pixels);
+    const Frame sharp = fog();
+    for (std::size_t i = 0; i < sharp.scattering.pixels.size(); ++i)
+        ASSERT_NEAR(frame.scattering.pixels[i], sharp.scattering.pixels[i], sharp.scattering.pixels[i] / 1024);
 }
 
 TEST_F(RadialShafts, ExtremesStayFiniteAndBounded) {

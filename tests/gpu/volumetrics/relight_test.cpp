@@ -273,7 +273,7 @@ TEST_F(VolumetricsRuns, VisibilityIsSampledWhereTheLightComesFrom) {
             Settings settings = coarse(steps);
             settings.light_transmittance = attenuation;
             const double expected = mean(truth(settings).scattering);
-            EXPECT_NEAR(mean(host.render(settings).scattering), expected, 0.025 * expected) << steps << attenuation;
+            EXPECT_NEAR(mean(host.render(settings).scattering), expected, 0.03 * expected) << steps << attenuation;
         }
     }
 }
@@ -333,7 +333,7 @@ TEST_F(VolumetricsRelight, FrameSaysWhyLightIsFilteredWhole) {
     Settings settings = filtered(Reconstruct::visibility);
     EXPECT_FALSE(host.render(settings).skipped.contains("volumetrics/relight"));
     settings.filter = Filter::none;
-    EXPECT_EQ(reason(settings), "nothing filters visibility");
+    EXPECT_EQ(reason(settings), "nothing reconstructs visibility");
     settings = filtered(Reconstruct::visibility);
     settings.lamp_integration = volumetrics::LampIntegration::center;
     EXPECT_EQ(reason(settings), "lamp_integration is center: unshadowed light is noisy, too");

@@ -81,14 +81,14 @@ TEST(VolumetricsMedia, StepsFillTheRayAndGrowByTheStrength) {
     inputs.global = {{.sigma_s = glm::vec3(1)}};
     for (const int steps : {1, 2, 8, 1024})
         for (const float strength : {0.01F, 1.0F, 10.0F}) {
-            const glm::vec4 march =
+            const shared::VolumetricsData data =
                 gather_media(inputs,
                              {.steps = steps, .stepping = Stepping::exponential, .stepping_strength = strength})
-                    .data.march;
-            double sum = 0, length = march.y, last = 0;
-            for (int i = 0; i < steps; ++i, length *= march.z) sum += last = length;
+                    .data;
+            double sum = 0, length = data.first_step, last = 0;
+            for (int i = 0; i < steps; ++i, length *= data.step_growth) sum += last = length;
             EXPECT_NEAR(sum, 1, 1e-4) << steps << ' ' << strength;
-            EXPECT_NEAR(std::log(last / march.y), steps > 1 ? strength : 0, 1e-3) << steps;
+            EXPECT_NEAR(std::log(last / data.first_step), steps > 1 ? strength : 0, 1e-3) << steps;
         }
 }
 

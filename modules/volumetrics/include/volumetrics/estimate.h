@@ -30,6 +30,6 @@ struct Estimate {
     explicit operator bool() const { return static_cast<bool>(scattering); }
 };
 
-inline constexpr std::size_t most_parts = 4;
+inline constexpr std::size_t most_parts = 3;
 
 }  // namespace tyndall::volumetrics

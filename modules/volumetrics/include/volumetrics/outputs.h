@@ -29,8 +29,7 @@ struct Outputs {
 /// shaders/volumetrics/light/light_transmittance.glsl where `any` says so.
 struct LightTransmittance {
     bool any = false;
-    /// Value of the define LIGHT_VOLUMES: 1 sun, 2 lamps, 3 both are attenuated by local media.
-    int light_volumes = 0;
+    bool light_volumes = false;           ///< value of the define LIGHT_VOLUMES: local media dim some light
     TextureRef sun_volume, lamp_volumes;  ///< sampled there, bound by Volumetrics::bind_uniforms
 };
 

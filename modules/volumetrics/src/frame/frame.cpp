@@ -54,13 +54,12 @@ struct Running {
 };
 
 std::optional<int> standard_axis(const Frame& frame, const std::string& define) {
-    const int heights = static_cast<int>(frame.media.data.counts.x);
-    if (define == "HEIGHT_MEDIA") return heights > 1 ? MAX_HEIGHT_MEDIA : heights;
+    if (define == "HEIGHT_MEDIA") return height_media_axis(frame.media);
     if (define == "LOCAL_MEDIA") return !frame.media.local.empty();
     if (define == "HAS_SUN") return frame.inputs.has_sun;
     if (define == "LAMPS")
         return frame.inputs.has_lamps ? 1 + static_cast<int>(frame.settings.lamp_integration) : 0;
-    if (define == "LIGHT_VOLUMES") return frame.resources.light_volumes.axis();
+    if (define == "LIGHT_VOLUMES") return frame.resources.light_volumes.any();
     if (define == "CHROMATIC") return frame.media.chromatic;
     if (define == "COUNT_WORK") return frame.inputs.count_work;
     return std::nullopt;

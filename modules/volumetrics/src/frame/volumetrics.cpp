@@ -66,7 +66,7 @@ void Volumetrics::prepare(const Inputs& inputs, const Settings& settings) {
     impl_->resources.light_volumes.prepare(inputs, settings, impl_->media);
     if (impl_->technique != settings.technique || impl_->media.empty()) impl_->kept.reset();
     impl_->technique = settings.technique;
-    if (impl_->media.empty() && impl_->resources.light_volumes.axis() == 0)
+    if (impl_->media.empty() && !impl_->resources.light_volumes.any())
         impl_->resources.release();
     else
         impl_->resources.upload(settings, impl_->media);
@@ -77,8 +77,8 @@ LightTransmittance Volumetrics::add_light_passes(PassList& passes, const Inputs&
     impl_->light_passes_added = true;
     if (!impl_->media.attenuating.empty()) volumes.add_passes(passes, impl_->shaders, inputs);
     const bool on = settings.light_transmittance && technique(settings.technique).add;
-    return {.any = on && (impl_->media.has_global || volumes.axis() != 0),
-            .light_volumes = volumes.axis(),
+    return {.any = on && (impl_->media.has_global || volumes.any()),
+            .light_volumes = volumes.any(),
             .sun_volume = volumes.sun(),
             .lamp_volumes = volumes.lamps()};
 }

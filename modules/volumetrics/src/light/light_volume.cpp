@@ -78,10 +78,16 @@ void fill_light_volume(ShaderLibrary& shaders, bool count_work, const gl::Textur
 
 void LightVolumes::prepare(const Inputs& inputs, const Settings& settings, FrameMedia& media) {
     sun_ref_ = lamps_ref_ = {};
-    if (media.attenuating.empty()) return release();
+    if (!nothing_ && !(media.empty() && media.attenuating.empty())) {
+        nothing_ = light_volume_texture({1, 1, 1}, false, "volumetrics light volume of nothing");
+        nothing_.clear_float(0, 0, 0, 0);
+        const glm::vec4 no_lamp[2] = {glm::vec4(-1), glm::vec4(0)};
+        no_lamps_ = gl::Buffer::of(std::span<const glm::vec4>(no_lamp), "volumetrics lamp volume table of none");
+    }
+    if (media.attenuating.empty()) return release_volumes();
     sun_.prepare(inputs, settings, media);
     lamps_.prepare(inputs, settings, media);
-    if (axis() == 0) return release();
+    if (!any()) return release_volumes();
     const std::vector<shared::LocalMedium> now = packed(media);
     if (now.size() == uploaded_.size() &&
         std::memcmp(now.data(), uploaded_.data(), now.size() * sizeof now[0]) == 0)
@@ -117,6 +123,12 @@ void LightVolumes::add_passes(PassList& passes, ShaderLibrary& shaders, const In
 }
 
 void LightVolumes::release() {
+    release_volumes();
+    nothing_ = {};
+    no_lamps_ = {};
+}
+
+void LightVolumes::release_volumes() {
     sun_.release();
     lamps_.release();
     media_ = {};
@@ -129,19 +141,19 @@ void LightVolumes::sample(PassBuilder& builder) const {
 }
 
 void LightVolumes::bind() const {
-    const auto bind_texture = [](GLuint unit, const gl::Texture& texture) {
-        glBindTextureUnit(unit, texture.id());
+    if (!nothing_) return;
+    const auto bind_texture = [this](GLuint unit, const gl::Texture& volume) {
+        glBindTextureUnit(unit, (volume ? volume : nothing_).id());
         glBindSampler(unit, 0);
     };
-    if (sun_.texture()) bind_texture(UNIT_SUN_VOLUME, sun_.texture());
-    if (!lamps_.texture()) return;
+    bind_texture(UNIT_SUN_VOLUME, sun_.texture());
     bind_texture(UNIT_LAMP_VOLUMES, lamps_.texture());
-    lamps_.table().bind(GL_SHADER_STORAGE_BUFFER, BINDING_LAMP_VOLUMES);
+    (lamps_.table() ? lamps_.table() : no_lamps_).bind(GL_SHADER_STORAGE_BUFFER, BINDING_LAMP_VOLUMES);
 }
 
 std::size_t LightVolumes::bytes() const {
-    std::size_t bytes = media_.size() + lamps_.table().size();
-    for (const gl::Texture* texture : {&sun_.texture(), &lamps_.texture()})
+    std::size_t bytes = media_.size() + lamps_.table().size() + no_lamps_.size();
+    for (const gl::Texture* texture : {&sun_.texture(), &lamps_.texture(), &nothing_})
         if (*texture) bytes += gl::byte_size(texture->desc());
     return bytes;
 }
@@ -150,9 +162,7 @@ bool is_light_volume_permutation(const Permutation& permutation) {
     const auto found = permutation.find("LIGHT_VOLUMES");
     if (found == permutation.end() || found->second == 0) return true;
     const auto sun = permutation.find("HAS_SUN"), lamps = permutation.find("LAMPS");
-    const bool of_sun = (found->second & 1) != 0, of_lamps = (found->second & 2) != 0;
-    return of_sun == (sun != permutation.end() && sun->second != 0) &&
-           (!of_lamps || (lamps != permutation.end() && lamps->second != 0));
+    return (sun != permutation.end() && sun->second != 0) || (lamps != permutation.end() && lamps->second != 0);
 }
 
 }  // namespace tyndall::volumetrics

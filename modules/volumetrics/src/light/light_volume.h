@@ -89,24 +89,29 @@ class LightVolumes {
     void add_passes(PassList& passes, ShaderLibrary& shaders, const Inputs& inputs);
     void release();
 
-    /// Value of the axis LIGHT_VOLUMES: 1 sun, 2 lamps, 3 both.
-    [[nodiscard]] int axis() const { return (sun_.texture() ? 1 : 0) + (lamps_.texture() ? 2 : 0); }
+    /// Value of the axis LIGHT_VOLUMES: whether any light is dimmed by local media.
+    [[nodiscard]] bool any() const { return sun_.texture() || lamps_.texture(); }
     [[nodiscard]] TextureRef sun() const { return sun_ref_; }
     [[nodiscard]] TextureRef lamps() const { return lamps_ref_; }
     void sample(PassBuilder& builder) const;
+    /// Both, in place of one that there is not a volume of nothing.
     void bind() const;
     [[nodiscard]] std::size_t bytes() const;
 
   private:
+    void release_volumes();
+
     SunVolume sun_;
     LampVolumes lamps_;
     gl::Buffer media_;
     std::vector<shared::LocalMedium> uploaded_;
+    gl::Texture nothing_;
+    gl::Buffer no_lamps_;
     TextureRef sun_ref_, lamps_ref_;
 };
 
-/// Whether a combination of the axes LIGHT_VOLUMES, HAS_SUN and LAMPS can occur: where local media dim light, they
-/// dim the sun if it shines.
+/// Whether a combination of the axes LIGHT_VOLUMES, HAS_SUN and LAMPS can occur: without light there is none to
+/// dim.
 [[nodiscard]] bool is_light_volume_permutation(const Permutation& permutation);
 
 }  // namespace tyndall::volumetrics

@@ -26,7 +26,7 @@ TextureRef add_froxel_runs(Frame& frame, const FroxelMedia& froxels) {
         frame.passes.create("volumetrics/froxel_runs", {.format = GL_RG32UI, .size = {size.x * words, size.y, 1}});
     frame.add({.name = "volumetrics/froxel_runs",
                .program = frame.program(program, {{"EMISSION", frame.media.local_emission},
-                                                  {"LIGHT_VOLUMES", frame.resources.light_volumes.axis() & 1}}),
+                                                  {"LIGHT_VOLUMES", static_cast<bool>(frame.resources.light_volumes.sun())}}),
                .sources = {{froxels.columns}, {froxels.scattering}, {froxels.extinction}, {froxels.emission}},
                .images = {{&runs}},
                .light_volumes = true,

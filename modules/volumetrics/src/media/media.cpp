@@ -81,7 +81,7 @@ void add_global(const Inputs& inputs, FrameMedia& media) {
     }
     if (heights > MAX_HEIGHT_MEDIA)
         throw Error(fmt::format("volumetrics: {} height media, at most {} expected", heights, MAX_HEIGHT_MEDIA));
-    media.data.counts.x = static_cast<unsigned>(heights);
+    media.data.height_media_count = static_cast<unsigned>(heights);
 }
 
 void add_local(const LocalMedium& medium, FrameMedia& media) {
@@ -136,8 +136,8 @@ void add_local(const Inputs& inputs, const Settings& settings, FrameMedia& media
         add_all_local(inputs, grid, media);
     else
         add_local_in_view(inputs, grid, media);
-    media.data.counts.y = static_cast<unsigned>(media.local.size());
-    media.data.options.w = static_cast<unsigned>(grid.distribution);
+    media.data.local_media_count = static_cast<unsigned>(media.local.size());
+    media.data.froxel_distribution = static_cast<unsigned>(grid.distribution);
     media.data.froxel_begins = grid.begins;
     media.data.froxel_lengths = grid.lengths;
     media.data.medium_depths = {0, 1e9F, 0, 0};
@@ -157,7 +157,9 @@ void set_stepping(const Settings& settings, shared::VolumetricsData& data) {
         ratio = std::exp(growth);
         first = std::expm1(growth) / std::expm1(growth * n);
     }
-    data.march = {settings.max_distance, first, ratio, 0};
+    data.max_distance = settings.max_distance;
+    data.first_step = static_cast<float>(first);
+    data.step_growth = static_cast<float>(ratio);
 }
 
 void set_view(const Inputs& inputs, const Settings& settings, shared::VolumetricsData& data) {
@@ -198,17 +200,26 @@ FrameMedia gather_media(const Inputs& inputs, const Settings& settings) {
     if (media.empty() && media.attenuating.empty()) return media;
     set_view(inputs, settings, media.data);
     set_stepping(settings, media.data);
-    media.data.march.w = media.chromatic && !media.local.empty() ? 1.0F : 0.0F;
-    media.data.counts.z = static_cast<unsigned>(settings.steps);
-    media.data.counts.w = static_cast<unsigned>(noise_side(settings));
+    media.data.coloured_froxels = media.chromatic && !media.local.empty() ? 1U : 0U;
+    media.data.local_emission = media.local_emission ? 1U : 0U;
+    media.data.steps = static_cast<unsigned>(settings.steps);
+    media.data.noise_side = static_cast<unsigned>(noise_side(settings));
     media.data.noise = noise_uniform(settings, inputs.frame_index);
-    media.data.options.x = phase_option(settings.phase);
-    media.data.phase_back = {settings.phase_back_anisotropy, settings.phase_back_weight, 0, 0};
-    media.data.options.y = settings.light_transmittance ? 1U : 0U;
-    media.data.options.z = inputs.has_ambient ? 1U : 0U;
-    media.data.fog = {static_cast<float>(settings.fog_mode), settings.radial_samples, settings.radial_decay,
-                      settings.radial_unseen};
+    media.data.phase = phase_option(settings.phase);
+    media.data.back_anisotropy = settings.phase_back_anisotropy;
+    media.data.back_weight = settings.phase_back_weight;
+    media.data.light_transmittance = settings.light_transmittance ? 1U : 0U;
+    media.data.has_ambient = inputs.has_ambient ? 1U : 0U;
+    media.data.fog_mode = static_cast<unsigned>(settings.fog_mode);
+    media.data.radial_samples = static_cast<float>(settings.radial_samples);
+    media.data.radial_decay = settings.radial_decay;
+    media.data.radial_unseen = settings.radial_unseen;
     return media;
+}
+
+int height_media_axis(const FrameMedia& media) {
+    const int heights = static_cast<int>(media.data.height_media_count);
+    return heights > 1 ? MAX_HEIGHT_MEDIA : heights;
 }
 
 }  // namespace tyndall::volumetrics

@@ -37,6 +37,9 @@ struct FrameMedia {
     [[nodiscard]] bool empty() const { return !has_global && local.empty(); }
 };
 
+/// Value of the axis HEIGHT_MEDIA: see shaders/volumetrics/media/global_media.glsl.
+[[nodiscard]] int height_media_axis(const FrameMedia& media);
+
 /// Throws Error for more than MAX_HEIGHT_MEDIA height media.
 [[nodiscard]] FrameMedia gather_media(const Inputs& inputs, const Settings& settings);
 

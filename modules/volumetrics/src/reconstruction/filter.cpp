@@ -7,13 +7,13 @@ namespace tyndall::volumetrics {
 namespace {
 
 /// In one pass of each direction; more take another.
-constexpr std::size_t most_textures = 4;
+constexpr std::size_t most_textures = 3;
 
 const ProgramDesc program{
     .name = "volumetrics/filter",
     .stages = {{GL_VERTEX_SHADER, "shaders/lib/fullscreen.vert"},
                {GL_FRAGMENT_SHADER, "shaders/volumetrics/reconstruction/filter.frag"}},
-    .axes = {{"DEPTH", {0, 1, 2}}, {"NARROWS", {0, 1}}, {"TEXTURES", {1, 2, 3, 4}}, {"COUNT_WORK", {0, 1}}},
+    .axes = {{"DEPTH", {0, 1, 2}}, {"TEXTURES", {1, 2, 3}}, {"COUNT_WORK", {0, 1}}},
     .valid = {}};
 const ProgramRegistry::Registration registration(program);
 
@@ -86,7 +86,7 @@ void add_direction(Frame& frame, Textures textures, TextureRef frames, const std
         shader.set("radius", kernel.radius);
         shader.set("weights_0_3", glm::vec4(w[0], w[1], w[2], w[3]));
         shader.set("weights_4_7", glm::vec4(w[4], w[5], w[6], w[7]));
-        if (narrows) shader.set("kernel_variance", variance(kernel));
+        shader.set("kernel_variance", narrows ? variance(kernel) : 0.0F);
         shader.set("texel", texel);
         shader.set("direction", direction);
         shader.set("depth_falloff", falloff);
@@ -95,7 +95,6 @@ void add_direction(Frame& frame, Textures textures, TextureRef frames, const std
     };
     frame.add({.name = name,
                .program = frame.program(program, {{"DEPTH", static_cast<int>(settings.filter_depth)},
-                                                  {"NARROWS", static_cast<bool>(frames)},
                                                   {"TEXTURES", static_cast<int>(textures.size())}}),
                .sources = sources,
                .targets = {textures.begin(), textures.end()},

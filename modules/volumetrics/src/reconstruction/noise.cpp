@@ -97,24 +97,23 @@ std::string noise_texture_name(const Settings& settings) {
 
 void NoiseSource::prepare(const Settings& settings) {
     const bool sampled = technique(settings.technique).traits.sampling == Sampling::per_pixel;
-    const std::string texture = sampled ? noise_texture_name(settings) : "";
-    const std::string name = sampled && is_tile(settings.noise)
-                                 ? fmt::format("{} {}", static_cast<int>(settings.noise), settings.noise_size)
-                                 : texture;
+    const std::string texture = noise_texture_name(settings);
+    const std::string name =
+        sampled ? fmt::format("{} {} {}", static_cast<int>(settings.noise), settings.noise_size, texture) : "";
     if (name == name_) return;
     NoiseSource made;
     made.name_ = name;
-    if (!texture.empty()) {
-        made.texture_ = load_texture(texture);
-    } else if (!name.empty()) {
-        const std::vector<float> tile = noise_tile(settings.noise, settings.noise_size);
+    if (sampled) {
+        std::vector<float> tile = noise_tile(settings.noise, settings.noise_size);
+        tile.resize(NOISE_TILE_OFFSETS);  // whatever the noise, the shaders' block is there and whole
         made.tile_ = gl::Buffer::of(std::span<const float>(tile), "volumetrics noise tile");
+        if (!texture.empty()) made.texture_ = load_texture(texture);
     }
     *this = std::move(made);
 }
 
 void NoiseSource::bind() const {
-    if (tile_) tile_.bind(GL_SHADER_STORAGE_BUFFER, BINDING_NOISE);
+    if (tile_) tile_.bind(GL_UNIFORM_BUFFER, BINDING_NOISE);
     if (!texture_) return;
     glBindTextureUnit(UNIT_NOISE, texture_.id());
     glBindSampler(UNIT_NOISE, 0);

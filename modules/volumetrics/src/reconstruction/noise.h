@@ -27,9 +27,9 @@ namespace tyndall::volumetrics {
 /// What shaders/volumetrics/reconstruction/noise_offset.glsl reads.
 class NoiseSource {
   public:
-    /// Makes the tile or loads the texture that the settings ask for, where it is not there yet, and frees the
-    /// other; both with a technique that samples no noise. Throws Error that names path and expected size if the
-    /// file is missing or has another size.
+    /// Makes the tile and loads the texture that the settings ask for, where they are not there yet; frees both
+    /// with a technique that samples no noise. Throws Error that names path and expected size if the file is
+    /// missing or has another size.
     void prepare(const Settings& settings);
     /// Tile and texture, without a sampler object.
     void bind() const;
@@ -37,7 +37,7 @@ class NoiseSource {
     [[nodiscard]] std::size_t bytes() const;
 
   private:
-    std::string name_;  ///< of what is there: a texture's, or noise and size of a tile
+    std::string name_;  ///< of what is there: noise, size of the tile, texture
     gl::Buffer tile_;
     gl::Texture texture_;
 };

@@ -6,7 +6,7 @@ namespace {
 const ProgramDesc program{.name = "volumetrics/relight",
                           .stages = {{GL_VERTEX_SHADER, "shaders/lib/fullscreen.vert"},
                                      {GL_FRAGMENT_SHADER, "shaders/volumetrics/reconstruction/relight.frag"}},
-                          .axes = {{"PARTS", {1, 2, 3, 4}}, {"COUNT_WORK", {0, 1}}},
+                          .axes = {{"PARTS", {1, 2, 3}}, {"COUNT_WORK", {0, 1}}},
                           .valid = {}};
 const ProgramRegistry::Registration registration(program);
 

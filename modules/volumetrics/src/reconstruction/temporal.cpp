@@ -17,7 +17,7 @@ const ProgramDesc program{
     .name = "volumetrics/temporal",
     .stages = {{GL_VERTEX_SHADER, "shaders/lib/fullscreen.vert"},
                {GL_FRAGMENT_SHADER, "shaders/volumetrics/reconstruction/temporal.frag"}},
-    .axes = {{"CLIP", {0, 1}}, {"REJECT", {0, 1}}, {"TEXTURES", {1, 2, 3, 4}}, {"COUNT_WORK", {0, 1}}},
+    .axes = {{"REJECT", {0, 1}}, {"TEXTURES", {1, 2, 3}}, {"COUNT_WORK", {0, 1}}},
     .valid = {}};
 const ProgramRegistry::Registration registration(program);
 
@@ -160,7 +160,7 @@ TemporalMean add_temporal(Frame& frame, Textures textures) {
         mean.acceptance = frame.passes.create("volumetrics/acceptance", {.format = GL_R16F, .size = {size, 1}});
     targets.push_back(&mean.acceptance);
 
-    const auto set = [=, &history, motion = static_cast<bool>(frame.inputs.motion), mode = settings.temporal,
+    const auto set = [=, &history, clip = moves && settings.temporal_clip, motion = static_cast<bool>(frame.inputs.motion), mode = settings.temporal,
                       weight = settings.temporal_weight, scale = settings.temporal_scale,
                       frames = static_cast<float>(settings.temporal_frames)](const PassContext&,
                                                                              const gl::Program& shader) {
@@ -169,6 +169,7 @@ TemporalMean add_temporal(Frame& frame, Textures textures) {
         shader.set("motion", motion ? 1 : 0);
         shader.set("by_depth", mode == Temporal::acceptance || counted ? 1 : 0);
         shader.set("counted", counted ? 1 : 0);
+        shader.set("clip", clip ? 1 : 0);
         shader.set("scale", scale);
         shader.set("least_weight", weight);
         shader.set("most_frames", counted ? frames : many_frames);
@@ -183,8 +184,7 @@ TemporalMean add_temporal(Frame& frame, Textures textures) {
         shader.set("previous_clip_from_view", history.clip_before_from_view());
     };
     frame.add({.name = "volumetrics/temporal",
-               .program = frame.program(program, {{"CLIP", moves && settings.temporal_clip},
-                                                  {"REJECT", moves && settings.temporal_reject},
+               .program = frame.program(program, {{"REJECT", moves && settings.temporal_reject},
                                                   {"TEXTURES", static_cast<int>(textures.size())}}),
                .sources = sources,
                .targets = targets,

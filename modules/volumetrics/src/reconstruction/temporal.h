@@ -18,7 +18,7 @@ namespace tyndall::volumetrics {
 /// depth of the surface that each pixel saw, see shaders/volumetrics/reconstruction/temporal.frag.
 class TemporalHistory {
   public:
-    static constexpr std::size_t most_textures = 4;
+    static constexpr std::size_t most_textures = 3;
 
     /// Before the pass is added, at a size, of textures of these descriptions. Another mode, place, technique,
     /// resolution, size or number of textures ends the history.

@@ -23,7 +23,7 @@ const ProgramDesc program{.name = "volumetrics/billboards",
                           .axes = {{"HEIGHT_MEDIA", {0, 1, MAX_HEIGHT_MEDIA}},
                                    {"HAS_SUN", {0, 1}},
                                    {"LAMPS", {0, 1}},  // 1: at a point, as LampIntegration::center
-                                   {"LIGHT_VOLUMES", {0, 1, 2, 3}},
+                                   {"LIGHT_VOLUMES", {0, 1}},
                                    {"CHROMATIC", {0, 1}},
                                    {"COUNT_WORK", {0, 1}}},
                           .valid = is_light_volume_permutation};

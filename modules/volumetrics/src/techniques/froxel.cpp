@@ -12,11 +12,7 @@ namespace {
 const ProgramDesc program{.name = "volumetrics/froxel_apply",
                           .stages = {{GL_VERTEX_SHADER, "shaders/volumetrics/techniques/view_ray.vert"},
                                      {GL_FRAGMENT_SHADER, "shaders/volumetrics/techniques/froxel_apply.frag"}},
-                          .axes = {{"HEIGHT_MEDIA", {0, 1, MAX_HEIGHT_MEDIA}},
-                                   {"LOCAL_MEDIA", {0, 1}},
-                                   {"HAS_SUN", {0, 1}},
-                                   {"CHROMATIC", {0, 1}},
-                                   {"COUNT_WORK", {0, 1}}},
+                          .axes = {{"HAS_SUN", {0, 1}}, {"CHROMATIC", {0, 1}}, {"COUNT_WORK", {0, 1}}},
                           .valid = {}};
 const ProgramRegistry::Registration registration(program);
 

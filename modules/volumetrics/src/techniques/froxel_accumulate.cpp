@@ -6,10 +6,7 @@ namespace {
 
 const ProgramDesc program{.name = "volumetrics/froxel_accumulate",
                           .stages = {{GL_COMPUTE_SHADER, "shaders/volumetrics/techniques/froxel_accumulate.comp"}},
-                          .axes = {{"HEIGHT_MEDIA", {0, 1, MAX_HEIGHT_MEDIA}},
-                                   {"LOCAL_MEDIA", {0, 1}},
-                                   {"CHROMATIC", {0, 1}},
-                                   {"COUNT_WORK", {0, 1}}},
+                          .axes = {{"LOCAL_MEDIA", {0, 1}}, {"CHROMATIC", {0, 1}}, {"COUNT_WORK", {0, 1}}},
                           .valid = {}};
 const ProgramRegistry::Registration registration(program);
 

@@ -37,7 +37,7 @@ void FroxelHistory::begin_frame(const Inputs& inputs, const Settings& settings, 
     const shared::VolumetricsData& data = media.data;
     current_ = {.view = inputs.view,
                 .projection = inputs.projection,
-                .distribution = static_cast<int>(data.options.w),
+                .distribution = static_cast<int>(data.froxel_distribution),
                 .depths = glm::vec2(data.froxel_depths),
                 .begins = data.froxel_begins,
                 .lengths = data.froxel_lengths};

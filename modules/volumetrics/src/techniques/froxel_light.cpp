@@ -6,18 +6,18 @@ namespace tyndall::volumetrics {
 namespace {
 
 bool is_permutation(const Permutation& p) {
-    return is_light_volume_permutation(p) && (p.at("FROXEL_HISTORY") == 0 || p.at("HAS_SUN") + p.at("LAMPS") > 0);
+    if (p.at("LOCAL_MEDIA") == 0 && p.at("HEIGHT_MEDIA") > 1) return false;
+    return p.at("FROXEL_HISTORY") == 0 || p.at("HAS_SUN") + p.at("LAMPS") > 0;
 }
 
 const ProgramDesc program{.name = "volumetrics/froxel_light",
                           .stages = {{GL_COMPUTE_SHADER, "shaders/volumetrics/techniques/froxel_light.comp"}},
                           .axes = {{"HEIGHT_MEDIA", {0, 1, MAX_HEIGHT_MEDIA}},
-                                   {"LOCAL_MEDIA", {0, 1}},
+                                   {"LOCAL_MEDIA", {0, 1}},  // in view, or they dim light
                                    {"HAS_SUN", {0, 1}},
                                    {"LAMPS", {0, 1, 2}},  // 1 + LampIntegration
                                    {"CHROMATIC", {0, 1}},
                                    {"FROXEL_HISTORY", {0, 1}},
-                                   {"LIGHT_VOLUMES", {0, 1, 2, 3}},
                                    {"COUNT_WORK", {0, 1}}},
                           .valid = is_permutation};
 const ProgramRegistry::Registration registration(program);
@@ -40,17 +40,18 @@ FroxelLight add_froxel_light(Frame& frame, const FroxelMedia& media, TextureRef 
                       .visibility = create("volumetrics/froxel_visibility", keeps),
                       .sun = create("volumetrics/froxel_sun", keeps && frame.inputs.has_sun),
                       .lamps = create("volumetrics/froxel_lamps", keeps && frame.inputs.has_lamps)};
-    const bool local = !frame.media.local.empty(), emits = frame.media.local_emission;
+    // Several height media are rare and slow: they have no program of their own without local media.
+    const bool local = !frame.media.local.empty() || frame.resources.light_volumes.any() ||
+                       height_media_axis(frame.media) > 1;
     frame.add({.name = "volumetrics/froxel_light",
-               .program = frame.program(program, {{"FROXEL_HISTORY", keeps}}),
+               .program = frame.program(program, {{"LOCAL_MEDIA", local}, {"FROXEL_HISTORY", keeps}}),
                .sources =
-                   {{columns}, {media.scattering}, {media.extinction}, {emits ? media.emission : media.scattering}},
+                   {{columns}, {media.scattering}, {media.extinction}, {frame.media.local_emission ? media.emission : media.scattering}},
                .images = {{&light.radiance}, {&light.visibility}, {&light.sun}, {&light.lamps}},
                .lit = true,
                .light_volumes = true,
                .set =
-                   [local, emits, history](const PassContext&, const gl::Program& shader) {
-                       if (local) shader.set("local_emission", emits ? 1 : 0);
+                   [history](const PassContext&, const gl::Program& shader) {
                        if (history != nullptr) shader.set("visibility_jitter", history->jitter());
                    },
                .groups = (size + group - 1) / group});

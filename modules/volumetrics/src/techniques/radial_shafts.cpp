@@ -10,8 +10,7 @@ const ProgramDesc visibility_program{
     .name = "volumetrics/radial_visibility",
     .stages = {{GL_VERTEX_SHADER, "shaders/volumetrics/techniques/radial_visibility.vert"},
                {GL_FRAGMENT_SHADER, "shaders/volumetrics/techniques/radial_visibility.frag"}},
-    .axes = {{"HEIGHT_MEDIA", {0, 1, MAX_HEIGHT_MEDIA}},
-             {"INTERVALS", {0, 1}},  // RadialOcclusion
+    .axes = {{"INTERVALS", {0, 1}},  // RadialOcclusion
              {"CHROMATIC", {0, 1}},
              {"COUNT_WORK", {0, 1}}},
     .valid = {}};

@@ -9,25 +9,34 @@ namespace tyndall::volumetrics {
 namespace {
 
 bool is_valid(const Permutation& p) {
-    if (!is_light_volume_permutation(p)) return false;
-    if (p.at("VISIBILITY") == 0) return true;
+    const int local = p.at("LOCAL_MEDIA");
+    const bool lit = p.at("HAS_SUN") + p.at("LAMPS") > 0;
+    if (local == 1 && !lit) return false;
+    if (local == 0 && lit && p.at("HEIGHT_MEDIA") > 1) return false;  // see local_media_axis
+    if (p.at("PARTS") == 0) return true;
     if (p.at("LAMPS") == 1 || (p.at("LAMPS") == 0 && p.at("HAS_SUN") == 0)) return false;
-    return p.at("LOCAL_MEDIA") == 0 || p.at("CHROMATIC") == 0;
+    return local != 2 || p.at("CHROMATIC") == 0;
 }
 
 const ProgramDesc program{.name = "volumetrics/march",
                           .stages = {{GL_VERTEX_SHADER, "shaders/volumetrics/techniques/view_ray.vert"},
                                      {GL_FRAGMENT_SHADER, "shaders/volumetrics/techniques/ray_march.frag"}},
                           .axes = {{"HEIGHT_MEDIA", {0, 1, MAX_HEIGHT_MEDIA}},
-                                   {"LOCAL_MEDIA", {0, 1, 2}},  // 2: some emit
+                                   {"LOCAL_MEDIA", {0, 1, 2}},  // 1: they only dim light, 2: in view
                                    {"HAS_SUN", {0, 1}},
                                    {"LAMPS", {0, 1, 2}},  // 1 + LampIntegration
                                    {"CHROMATIC", {0, 1}},
-                                   {"LIGHT_VOLUMES", {0, 1, 2, 3}},
-                                   {"VISIBILITY", {0, 1}},  // see reason_for_no_parts
+                                   {"PARTS", {0, 1}},  // see reason_for_no_parts
                                    {"COUNT_WORK", {0, 1}}},
                           .valid = is_valid};
 const ProgramRegistry::Registration registration(program);
+
+/// Several height media are rare and slow: lit ones have no program of their own without light volumes.
+int local_media_axis(const Frame& frame) {
+    if (!frame.media.local.empty()) return 2;
+    const bool lit = frame.inputs.has_sun || frame.inputs.has_lamps;
+    return frame.resources.light_volumes.any() || (lit && height_media_axis(frame.media) > 1) ? 1 : 0;
+}
 
 const char* reason_for_no_parts(const Frame& frame) {
     if (const char* reason = volumetrics::reason_for_no_parts(frame.settings)) return reason;
@@ -64,14 +73,13 @@ Estimate add(Frame& frame) {
         if (frame.inputs.has_lamps) estimate.parts.push_back(create_part(frame, "lamps"));
         for (Part& part : estimate.parts) targets.insert(targets.end(), {&part.light, &part.share});
     }
-    const bool local = !frame.media.local.empty();
     frame.add({.name = "volumetrics/march",
-               .program = frame.program(program, {{"LOCAL_MEDIA", local + (local && frame.media.local_emission)},
-                                                  {"VISIBILITY", whole == nullptr}}),
+               .program = frame.program(program, {{"LOCAL_MEDIA", local_media_axis(frame)},
+                                                  {"PARTS", whole == nullptr}}),
                .sources = {{frame.depth},
                            {froxels.scattering, true},
                            {froxels.extinction, true},
-                           {froxels.emission, true},
+                           {froxels.emission ? froxels.emission : froxels.scattering, true},
                            {runs}},
                .targets = targets,
                .lit = true,

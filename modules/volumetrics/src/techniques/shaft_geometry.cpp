@@ -38,9 +38,9 @@ const ProgramDesc resolve_program{
              {"HAS_SUN", {0, 1}},
              {"LAMPS", {0, 2}},
              {"CHROMATIC", {0, 1}},
-             {"VISIBILITY", {0, 1}},  // of lamps, apart
+             {"PARTS", {0, 1}},  // of lamps, apart
              {"COUNT_WORK", {0, 1}}},
-    .valid = [](const Permutation& p) { return p.at("VISIBILITY") == 0 || p.at("LAMPS") != 0; }};
+    .valid = [](const Permutation& p) { return p.at("PARTS") == 0 || p.at("LAMPS") != 0; }};
 const ProgramRegistry::Registration resolve_registration(resolve_program);
 
 /// `shaft_cuts` of shaft_sun.glsl. One height medium, or homogeneous ones, need no cut. Cuts begin at half of the
@@ -51,7 +51,7 @@ glm::vec4 ray_cuts(const FrameMedia& media, const Settings& settings) {
     const float clearest = std::min({t.r, t.g, t.b});
     const bool constant =
         std::max({t.r, t.g, t.b}) > 0 || glm::vec3(media.data.homogeneous_emission) != glm::vec3(0);
-    const unsigned heights = media.data.counts.x;
+    const unsigned heights = media.data.height_media_count;
     if (heights == 0 || (heights == 1 && !constant)) return {1, 0, 0, 2 * farthest};
     float falloff = farthest;
     for (unsigned i = 0; i < heights; ++i) falloff = std::min(falloff, media.data.height[i].sigma_t_falloff.w);
@@ -118,7 +118,7 @@ Estimate add_resolve(Frame& frame, TextureRef face_light) {
     }
     frame.add(
         {.name = "volumetrics/shaft_resolve",
-         .program = frame.program(resolve_program, {{"LAMPS", lamps ? 2 : 0}, {"VISIBILITY", whole == nullptr}}),
+         .program = frame.program(resolve_program, {{"LAMPS", lamps ? 2 : 0}, {"PARTS", whole == nullptr}}),
          .sources = {{frame.depth}, {face_light}},
          .targets = targets,
          .lit = true,

@@ -1,16 +1,16 @@
 // Light whose visible share is stored apart from it (relight.frag).
-#ifndef VOLUMETRICS_PARTED_GLSL
-#define VOLUMETRICS_PARTED_GLSL
+#ifndef VOLUMETRICS_PART_GLSL
+#define VOLUMETRICS_PART_GLSL
 
 #include "shaders/lib/pack.glsl"
 
-struct Parted {
+struct Part {
     vec3 visible;
     vec3 whole;  // unshadowed
 };
 
 // Visible share of each channel, that of the mean in a channel without light; and its weight, 0 where there is no light.
-vec4 visible_share(Parted light) {
+vec4 visible_share(Part light) {
     const float LEAST = 1.0e-7;
     vec3 whole = min(light.whole, 1.0e30);
     vec3 visible = min(light.visible, whole);
