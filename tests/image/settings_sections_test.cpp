@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "volumetrics/settings.h"
+
 namespace tyndall {
 namespace {
 
