@@ -83,6 +83,7 @@ TEST_P(BrokenBuild, IsCaughtAndTheCommandRepeatsIt) {
     EXPECT_NE(again.output.find(GetParam().says), std::string::npos) << again.output;
 }
 
+// What keeps numbers finite and light in place.
 INSTANTIATE_TEST_SUITE_P(Guards, BrokenBuild,
                          ::testing::Values(Guard{"LampRadius", "shaders/lib/lamp_segment.glsl",
                                                  "float sphere = max(radius, LAMP_MIN_RADIUS);",
@@ -97,6 +98,26 @@ INSTANTIATE_TEST_SUITE_P(Guards, BrokenBuild,
                                                  "if (clearest_end > visible_end)", "if (false)",
                                                  "the ground truth"}),
                          [](const auto& info) { return info.param.name; });
+
+// Pictures that are finite, in range and wrong.
+INSTANTIATE_TEST_SUITE_P(
+    Physics, BrokenBuild,
+    ::testing::Values(
+        Guard{"PhaseSign", "shaders/lib/phase.glsl", "float signed_cos_theta = g < 0.0f ? -cos_theta : cos_theta;",
+              "float signed_cos_theta = g < 0.0f ? cos_theta : -cos_theta;", "the ground truth"},
+        Guard{"LampRange", "shaders/lib/lamp_segment.glsl", "segment.weight *= max(total - cut, 0.0f)",
+              "segment.weight *= total", "the ground truth"},
+        Guard{"LocalDensity", "shaders/volumetrics/media/local_media.glsl", "return density * media_height(",
+              "return 0.8 * density * media_height(", "the ground truth"},
+        Guard{"SunShadow", "shaders/interface/shadows.glsl", "return sun_shadow_volume(world, view_depth);",
+              "return 1.0;", "scattering with shadows"},
+        Guard{"FilterSum", "shaders/volumetrics/reconstruction/filter.frag", "            total += weight;\n", "",
+              "filter at pixel"},
+        Guard{"UpsampleSum", "shaders/volumetrics/reconstruction/upsample.frag", "total = dot(weights, vec4(1.0));",
+              "total = 1.0;", "low resolution at pixel"},
+        Guard{"HistoryShare", "shaders/volumetrics/reconstruction/temporal.frag",
+              "kept_frames / (kept_frames + 1.0)", "kept_frames / (kept_frames + 2.0)", "history at pixel"}),
+    [](const auto& info) { return info.param.name; });
 
 }  // namespace
 }  // namespace tyndall::stress

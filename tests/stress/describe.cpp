@@ -4,6 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "draw_scene.h"
+
 namespace tyndall::stress {
 namespace {
 
@@ -26,7 +28,7 @@ std::string text(const Medium& medium) {
         fmt::format("  {} scattering {} absorption {} g {:.7g} emission {}", shapes[static_cast<int>(medium.shape)],
                     text(medium.sigma_s), text(medium.sigma_a), medium.anisotropy, text(medium.emission));
     if (medium.height_profile) line += fmt::format(" base {:.7g} falloff {:.7g}", medium.base, medium.falloff);
-    if (medium.shape != Medium::Shape::global && medium.shape != Medium::Shape::height)
+    if (is_local(medium))
         line += fmt::format(" at {} radii {} size {} softness {:.7g} noise {:.7g} of {:.7g} m", text(medium.center),
                             text(medium.radii), text(medium.size), medium.softness, medium.noise_amount,
                             medium.noise_scale);
@@ -46,7 +48,7 @@ std::string describe(const StressFrame& frame) {
     for (const Medium& medium : frame.media) all += text(medium);
     FrameOptions options = frame.options;
     SettingsSet settings;
-    settings.add(volumetrics::settings_table(), &options.volumetrics);
+    settings.add(volumetrics::settings_table(), &module_settings(options));
     settings.add(render_settings_table(), &options.render);
     return all + "  " + settings.to_json().dump() + "\n";
 }

@@ -5,8 +5,8 @@
 
 namespace tyndall::stress {
 
-/// small: each side up to 128.
-enum class SizeKind { small, one_pixel, column, row, wide, tall };
+/// small: each side up to 128; thumbnail: 9 to 33, of comparable frames.
+enum class SizeKind { small, thumbnail, one_pixel, column, row, wide, tall };
 
 /// What decides the shader permutations of a frame.
 struct Structure {
@@ -28,6 +28,7 @@ void draw_world(StressFrame& frame, const Structure& structure, Random& of_seque
 [[nodiscard]] StressFrame::Lamp draw_sun(const Structure& structure, Random& random);
 void draw_lamps(StressFrame& frame, const Structure& structure, glm::vec3 origin, Random& random);
 void draw_media(StressFrame& frame, const Structure& structure, glm::vec3 origin, Random& random);
+[[nodiscard]] bool is_local(const Medium& medium);
 
 [[nodiscard]] float logarithmic(Random& random, double low, double high);
 /// Half of the time something usual, else anything: a frame in which all is extreme shows nothing.

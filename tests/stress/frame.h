@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "engine/render/renderer.h"
@@ -9,6 +10,20 @@ namespace tyndall::stress {
 
 /// Frames come in sequences that share size, resources and kind of scene, with a camera that moves or jumps.
 constexpr int sequence_length = 4;
+
+/// What stands between the samples of a comparable frame and its picture; plain: nothing.
+enum class Feature { plain, filter, history, low_resolution };
+
+/// The module's settings of a frame.
+inline volumetrics::Settings& module_settings(FrameOptions& options) {
+    return options.volumetrics;
+}
+inline const volumetrics::Settings& module_settings(const FrameOptions& options) {
+    return options.volumetrics;
+}
+
+[[nodiscard]] std::string technique_of(const FrameOptions& options);
+void set_technique(FrameOptions& options, const std::string& name);
 
 /// One frame: a pure function of seed and number.
 struct StressFrame {
@@ -25,7 +40,8 @@ struct StressFrame {
     glm::ivec2 size{1};
     FrameOptions options;
     bool cut = false;         ///< a camera jump that the renderer is told of
-    bool comparable = false;  ///< within what the ground truth follows: see compare.h
+    bool comparable = false;  ///< within what a truth follows: see moderate.h
+    Feature feature = Feature::plain;
 };
 [[nodiscard]] StressFrame make_frame(std::uint64_t seed, int number);
 

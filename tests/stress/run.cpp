@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "engine/core/error.h"
+#include "engine/core/files.h"
 
 namespace tyndall::stress {
 namespace {
@@ -22,6 +23,8 @@ bool has_surface(const Image& depth) {
 }
 
 }  // namespace
+
+Run::Run(std::uint64_t seed) : seed_(seed), shaders_(data_root()), worlds_(shaders_), compare_(shaders_) {}
 
 Layers Run::render(const StressFrame& frame, World world) {
     auto& [scene, renderer] = worlds_[world];
@@ -43,19 +46,16 @@ Findings Run::check(int number) {
         if (frame.cut) worlds_[frame.world].renderer->invalidate_history();
         const Layers layers = render(frame, frame.world);
         // The technique reference keeps its layers in single precision.
-        const bool single = frame.options.volumetrics.technique == volumetrics::Technique::reference;
+        const bool single = technique_of(frame.options) == "reference";
         check_values(layers, single ? std::numeric_limits<float>::max() : half_max, findings);
-        if (frame.comparable) {
-            Random random{seed_, 4, static_cast<std::uint64_t>(number)};
-            const Scene scene = pose_scene(worlds_[frame.world].scene, frame);
-            compare_with_truth(frame, scene, layers, random, totals.truth, findings);
-        }
-        const volumetrics::Settings& v = frame.options.volumetrics;
+        if (frame.comparable) compare_.check(frame, Random{seed_, 4, static_cast<std::uint64_t>(number)}, findings);
+        if (number % sequence_length == 1) compare_.check_doubled(frame, findings);
+        const volumetrics::Settings& v = module_settings(frame.options);
         const bool of_own_ray = v.filter == volumetrics::Filter::none && v.temporal == volumetrics::Temporal::off &&
                                 v.resolution == volumetrics::Resolution::full;
         if (of_own_ray && has_surface(layers.depth) && has_monotonic_transmittance(frame)) {
             const Layers sky = render(frame, World::nothing);
-            totals.depth_pixels += check_monotonic(layers, sky, frame.options.volumetrics.steps, findings);
+            totals.depth_pixels += check_monotonic(layers, sky, module_settings(frame.options).steps, findings);
         }
     } catch (const Error& error) {
         findings.push_back(error.what());

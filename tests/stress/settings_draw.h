@@ -1,6 +1,6 @@
 #pragma once
 
-#include "engine/render/renderer.h"
+#include "frame.h"
 #include "random.h"
 
 namespace tyndall::stress {

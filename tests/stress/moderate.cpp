@@ -1,0 +1,134 @@
+#include "moderate.h"
+
+#include <algorithm>
+#include <array>
+
+namespace tyndall::stress {
+namespace {
+
+struct Turn {
+    const char* technique;
+    bool local, shadows;
+};
+constexpr std::array<Turn, moderate_turns> turns{{{"ray_march", false, false},
+                                                  {"ray_march", true, false},
+                                                  {"ray_march", false, true},
+                                                  {"ray_march", true, true},
+                                                  {"froxel", false, true},
+                                                  {"froxel", true, false},
+                                                  {"reference", true, true},
+                                                  {"billboards", true, false},
+                                                  {"particles", true, false},
+                                                  {"shaft_geometry", true, true},
+                                                  {"analytic_fog", true, false},
+                                                  {"radial_shafts", false, false}}};
+
+std::vector<Feature> features(const std::string& technique) {
+    using enum Feature;
+    if (technique == "reference" || technique == "analytic_fog") return {plain};
+    if (technique == "froxel" || technique == "particles") return {plain, history, low_resolution};
+    return {plain, filter, history, low_resolution};
+}
+
+}  // namespace
+
+Knows knows(const std::string& technique) {
+    if (technique == "analytic_fog" || technique == "radial_shafts") return {false, false, false};
+    return {technique != "shaft_geometry", true, true};
+}
+
+void moderate_structure(Structure& s, int turn, Random& random) {
+    const Turn& t = turns[static_cast<std::size_t>(turn)];
+    volumetrics::Settings& v = module_settings(s.options);
+    s.comparable = true;
+    s.size = SizeKind::thumbnail;
+    s.local = t.local;
+    s.options.render.shadows = t.shadows;
+    if (t.shadows) s.world = World::standing;
+    if (!s.sun && !s.lamps) (random.chance(0.5) ? s.sun : s.lamps) = true;
+    if (!knows(t.technique).lamps) s.sun = true;
+    if (!s.homogeneous && s.heights == 0 && (!t.local || random.chance(0.5))) s.heights = 1;
+    set_technique(s.options, t.technique);
+    v.lamp_integration = volumetrics::LampIntegration::segment;
+}
+
+void moderate_visit(Structure& s, int visit) {
+    const std::string technique = technique_of(s.options);
+    const bool sprites = technique == "billboards" || technique == "particles";
+    if (!(sprites || technique == "froxel") || visit / 2 % 2 == 1) return;
+    s.local = false;
+    if (s.heights == 0) s.homogeneous = true;
+    if (sprites) {
+        s.lamps = false;
+        s.sun = true;
+    }
+}
+
+void moderate_frame(StressFrame& frame, int visit, Random& of_sequence, Random& random) {
+    volumetrics::Settings& v = module_settings(frame.options);
+    const std::vector<Feature> all = features(technique_of(frame.options));
+    frame.feature = all[static_cast<std::size_t>(visit) % all.size()];
+    const bool local = std::ranges::any_of(frame.media, [](const Medium& medium) { return is_local(medium); });
+
+    v.steps = static_cast<int>(random.logarithmic(local ? 64 : 24, 128));
+    v.max_distance = static_cast<float>(random.logarithmic(90, local ? 120 : 400));
+    v.stepping_strength = std::min(v.stepping_strength, 4.0f);
+    v.froxel_distribution =
+        of_sequence.pick({volumetrics::DepthDistribution::linear, volumetrics::DepthDistribution::exponential,
+                          volumetrics::DepthDistribution::logarithmic});
+    const bool lit = technique_of(frame.options) == "froxel";
+    v.froxels_x = v.froxels_y = lit ? 31 : 17;
+    v.froxels_z = lit ? 95 : 191;
+    v.froxel_far = lit ? 100.0f : 40.0f;
+    v.froxel_history = frame.feature == Feature::history ? 2 + of_sequence.below(100) : 0;
+    v.sun_volume_size = 64;
+    v.lamp_volume_size = 24;
+    v.lamp_volume_count = 64;
+    v.billboard_layers = std::max(v.billboard_layers, 8);
+    v.billboard_local_layers = std::max(v.billboard_local_layers, 16);
+    v.billboard_fade = 0;
+    v.particle_count = v.particle_local_count = 4096;
+    v.reference_steps = 512;
+    v.reference_lamp_samples = 16;
+    v.reference_light_steps = 16;
+    v.shaft_segments = std::max(v.shaft_segments, 6);
+    if (random.chance(0.7)) v.fog_mode = volumetrics::FogMode::height;
+
+    v.filter = volumetrics::Filter::none;
+    v.temporal = volumetrics::Temporal::off;
+    v.resolution = volumetrics::Resolution::full;
+    switch (frame.feature) {
+        case Feature::plain:
+            break;
+        case Feature::filter:
+            v.filter = static_cast<volumetrics::Filter>(1 + random.below(7));
+            break;
+        case Feature::history:
+            v.temporal = of_sequence.chance(0.5) ? volumetrics::Temporal::accumulate
+                                                 : static_cast<volumetrics::Temporal>(1 + of_sequence.below(3));
+            if (v.noise == volumetrics::Noise::none) v.noise = volumetrics::Noise::ign;
+            break;
+        case Feature::low_resolution:
+            v.resolution =
+                of_sequence.chance(0.5) ? volumetrics::Resolution::half : volumetrics::Resolution::quarter;
+            break;
+    }
+    RenderSettings& r = frame.options.render;
+    r.cluster_far = std::max(r.cluster_far, 100.0f);
+    r.cascade_size = 1024;
+    r.cascade_distance = 60;
+    r.static_shadow_size = 1024;
+    r.atlas_size = 2048;
+    r.tile_size_max = 512;
+}
+
+FrameOptions plain(FrameOptions options) {
+    volumetrics::Settings& v = module_settings(options);
+    v.filter = volumetrics::Filter::none;
+    v.temporal = volumetrics::Temporal::off;
+    v.resolution = volumetrics::Resolution::full;
+    v.froxel_history = 0;
+    return options;
+}
+
+}  // namespace tyndall::stress
