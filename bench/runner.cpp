@@ -83,9 +83,8 @@ bool Runner::timed_enough(const Point& point) const {
 }
 
 bool Runner::beyond_driver(const Group& group, const Point& point) const {
-    return session_->context->capabilities().software &&
-           session_->options.volumetrics.technique == volumetrics::Technique::ray_march &&
-           static_cast<double>(session_->options.volumetrics.steps) * group.facts.lamps_in_view > loop_limit &&
+    return session_->context->capabilities().software && session_->volumetrics.settings.technique == "ray_march" &&
+           static_cast<double>(session_->volumetrics.settings.steps) * group.facts.lamps_in_view > loop_limit &&
            point.edit.lamps < 0;
 }
 

@@ -15,7 +15,7 @@ Medium sphere(int index, const View& view) {
     Medium medium;
     medium.shape = Medium::Shape::sphere;
     medium.center = glm::vec3(glm::inverse(glm::dmat4(view.view)) * in_view);
-    medium.radii = glm::vec3(0.5f);
+    medium.half_extent = glm::vec3(0.5f);
     medium.softness = 0.25f;
     medium.sigma_s = glm::vec3(0.5f);
     return medium;

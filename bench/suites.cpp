@@ -11,6 +11,7 @@
 #include "bench/techniques.h"
 #include "engine/core/error.h"
 #include "volumetrics/settings.h"
+#include "volumetrics/technique.h"
 
 namespace tyndall::bench {
 namespace {

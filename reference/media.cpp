@@ -10,8 +10,7 @@ bool does_nothing(const Medium& m) {
 }
 
 bool has_size(const Medium& m) {
-    const glm::vec3 size = m.shape == Medium::Shape::box ? m.size : m.radii;
-    return size.x > 0 && size.y > 0 && size.z > 0;
+    return m.half_extent.x > 0 && m.half_extent.y > 0 && m.half_extent.z > 0;
 }
 
 /// 0 * infinity counts as nothing.
@@ -43,7 +42,7 @@ MediumPoint MediumSum::result() const {
 Media::Media(const std::vector<Medium>& media) {
     for (const Medium& m : media) {
         if (does_nothing(m)) continue;
-        if (m.shape == Medium::Shape::global || m.shape == Medium::Shape::height) {
+        if (!is_bounded(m)) {
             const dvec3 sigma_s(m.sigma_s);
             const dvec3 air = m.rayleigh ? sigma_s : dvec3(0);
             unbounded_.push_back({{sigma_s, sigma_s + dvec3(m.sigma_a), dvec3(m.emission), m.anisotropy, air},

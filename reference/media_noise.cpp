@@ -6,7 +6,7 @@
 #include "shaders/lib/glm_subset.h"
 
 TYNDALL_GLSL_BEGIN
-#include "shaders/lib/media_shape.glsl"
+#include "shaders/lib/media_density.glsl"
 TYNDALL_GLSL_END
 
 namespace tyndall::reference {

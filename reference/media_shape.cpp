@@ -1,5 +1,7 @@
 #include "reference/media_shape.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -17,6 +19,21 @@ constexpr double thinnest_rim = 1e-6;  ///< m; what is thinner is a step
 
 double smallest(dvec3 v) {
     return std::min({v.x, v.y, v.z});
+}
+
+/// Else an ellipsoid.
+bool is_box(Medium::Shape shape) {
+    switch (shape) {
+        case Medium::Shape::box:
+            return true;
+        case Medium::Shape::sphere:
+        case Medium::Shape::ellipsoid:
+            return false;
+        case Medium::Shape::global:
+        case Medium::Shape::height:
+            break;
+    }
+    throw Error(fmt::format("reference: {} medium, a bounded one expected", name_of(shape)));
 }
 
 }  // namespace
@@ -52,9 +69,9 @@ MediumShape::MediumShape(const Medium& medium)
       sigma_t(dvec3(medium.sigma_s) + dvec3(medium.sigma_a)),
       emission(medium.emission),
       anisotropy(medium.anisotropy),
-      box_(medium.shape == Medium::Shape::box),
+      box_(is_box(medium.shape)),
       center_(medium.center),
-      extent_(box_ ? 0.5 * dvec3(medium.size) : dvec3(medium.radii)),
+      extent_(medium.half_extent),
       bounding_radius_(box_ ? glm::length(extent_) : std::max({extent_.x, extent_.y, extent_.z})),
       world_to_shape_(glm::transpose(glm::mat3_cast(glm::normalize(glm::dquat(medium.rotation))))),
       softness_(medium.softness < thinnest_rim ? 0 : medium.softness),
@@ -62,9 +79,7 @@ MediumShape::MediumShape(const Medium& medium)
       profile_(medium.height_profile),
       noise_{medium.noise_scale, medium.noise_amount, static_cast<unsigned>(medium.noise_seed)},
       base_(medium.base),
-      falloff_(medium.falloff) {
-    if (medium.shape == Medium::Shape::grid) throw Error("reference: grid media are not supported by this version");
-}
+      falloff_(medium.falloff) {}
 
 // Of the surface below a point, m. Ellipsoid: along the gradient of k = |p / radii|, at most the smallest radius.
 double MediumShape::depth(dvec3 p) const {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>
@@ -18,6 +19,7 @@
 #include "sample_game/player.h"
 #include "sample_game/stats_json.h"
 #include "sample_game/ui/debug_ui.h"
+#include "volumetrics/technique.h"
 
 namespace tyndall {
 namespace {
@@ -161,8 +163,8 @@ class Game {
 
     void next_technique() {
         const std::vector<std::string>& names = volumetrics::technique_names();
-        const auto current = static_cast<std::size_t>(session_.options.volumetrics.technique);
-        const std::string& next = names[(current + 1) % names.size()];
+        const auto current = std::ranges::find(names, session_.volumetrics.settings.technique);
+        const std::string& next = names[static_cast<std::size_t>(current + 1 - names.begin()) % names.size()];
         session_.settings.set("technique", next);
         say("technique: " + next);
     }

@@ -42,7 +42,8 @@ json stats_json(Session& session) {
             {"draws",
              {{"instances", draws.instances}, {"triangles", draws.triangles}, {"draw_calls", draws.draw_calls}}},
             {"memory",
-             {{"textures", renderer.texture_bytes()}, {"volumetrics_persistent", renderer.volumetrics_bytes()}}},
+             {{"textures", renderer.texture_bytes()},
+              {"volumetrics_persistent", session.volumetrics.persistent_bytes()}}},
             {"settings", session.settings.to_json()}};
 }
 

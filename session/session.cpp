@@ -13,7 +13,7 @@ void DrawOptions::add_to(CLI::App& command, const std::string& default_scene, co
 }
 
 Session::Session(const DrawOptions& o, bool window) : size(o.pixels()) {
-    settings.add(volumetrics::settings_table(), &options.volumetrics);
+    settings.add(volumetrics::settings_table(), &volumetrics.settings);
     settings.add(render_settings_table(), &options.render);
     o.apply(settings);
     ContextRequest request;
@@ -29,11 +29,11 @@ Session::Session(const DrawOptions& o, bool window) : size(o.pixels()) {
     context = create_context(request);
     shaders = std::make_unique<ShaderLibrary>(data_root());
     timer = std::make_unique<gl::GpuTimer>(gl::TimerMode::off);
-    renderer = std::make_unique<Renderer>(*shaders);
+    renderer = std::make_unique<Renderer>(*shaders, std::vector<FrameModule*>{&volumetrics});
     renderer->prepare(scene, context->capabilities().software ? 1.0f : 4.0f);
     options.timer = timer.get();
-    const volumetrics::Settings& v = options.volumetrics;
-    if (context->capabilities().software && v.technique == volumetrics::Technique::ray_march && v.steps > 256)
+    const volumetrics::Settings& v = volumetrics.settings;
+    if (context->capabilities().software && v.technique == "ray_march" && v.steps > 256)
         spdlog::warn(
             "on this driver shaders lose light where loops are long: {} steps among many lamps are too many",
             v.steps);
@@ -43,6 +43,12 @@ void Session::draw(const View& view, double time) {
     options.time = time;
     renderer->render(scene, view, size, options);
     ++options.frame_index;
+}
+
+std::vector<std::string> Session::layer_names() {
+    VolumetricsAdapter volumetrics;
+    FrameModule* const modules[] = {&volumetrics};
+    return Renderer::layer_names(modules);
 }
 
 gl::TimerMode Session::timer_mode() const {

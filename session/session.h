@@ -3,7 +3,9 @@
 #include <glm/glm.hpp>
 #include <memory>
 #include <string>
+#include <vector>
 
+#include "adapter/volumetrics_adapter.h"
 #include "engine/core/settings.h"
 #include "engine/platform/gl_context.h"
 #include "engine/render/renderer.h"
@@ -25,19 +27,22 @@ class Session {
     /// `window` asks for a visible one. Throws UsageError or Error.
     Session(const DrawOptions& options, bool window);
 
-    SettingsSet settings;  ///< all of `options`' settings, by key
+    SettingsSet settings;  ///< those of `options` and of `volumetrics`, by key
     FrameOptions options;
     Scene scene;
     glm::ivec2 size;
     std::unique_ptr<GlContext> context;
     std::unique_ptr<ShaderLibrary> shaders;
     std::unique_ptr<gl::GpuTimer> timer;
+    VolumetricsAdapter volumetrics;
     std::unique_ptr<Renderer> renderer;
 
     /// Animates to `time` and draws one frame.
     void draw(const View& view, double time);
     /// Timer mode that is right for this driver: queries on real ones, finish-to-finish on software rasterisers.
     [[nodiscard]] gl::TimerMode timer_mode() const;
+    /// FrameOptions::layer is one of them.
+    [[nodiscard]] static std::vector<std::string> layer_names();
 };
 
 }  // namespace tyndall

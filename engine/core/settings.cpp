@@ -124,6 +124,35 @@ Found find_or_throw(const std::vector<SettingsSet::Group>& groups, std::string_v
 
 }  // namespace
 
+Setting& SettingsTable::add_row(Text text, SettingType type, double min, double max, SettingScale scale,
+                                SettingEffect effect) {
+    Setting& row = settings_.emplace_back();
+    row.key = std::move(text.key);
+    row.label = std::move(text.label);
+    row.help = std::move(text.help);
+    row.unit = std::move(text.unit);
+    row.type = type;
+    row.min = min;
+    row.max = max;
+    row.scale = scale;
+    row.effect = effect;
+    return row;
+}
+
+void SettingsTable::add_choice(std::string_view key, std::string name) {
+    const auto row = std::ranges::find(settings_, key, &Setting::key);
+    TYNDALL_CHECK(row != settings_.end());
+    row->choices.push_back(std::move(name));
+    row->max = static_cast<double>(row->choices.size()) - 1;
+}
+
+double SettingsTable::index_of(const std::string& name, const std::vector<std::string>& names) {
+    const auto found = std::ranges::find(names, name);
+    if (found == names.end())
+        throw Error(fmt::format("setting value '{}': expected one of {}", name, fmt::join(names, ", ")));
+    return static_cast<double>(found - names.begin());
+}
+
 void SettingsSet::add(const SettingsTable& table, void* object) {
     const SettingsSet::Group added{&table, object};
     for (const Setting& s : table.settings()) {

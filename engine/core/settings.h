@@ -33,7 +33,23 @@ struct Setting {
     std::function<void(void*, double)> set;
 };
 
-/// The table of a plain settings struct S: `SettingsTable t = SettingsTable::of<S>().real(&S::x, {...})…`.
+/// A member of a group within a settings struct: `in(&Settings::filter, &FilterSettings::sigma)`.
+template <class S, class G, class T>
+struct MemberIn {
+    G S::*group;
+    T G::*member;
+    template <class Struct>
+    auto& operator()(Struct& s) const {
+        return s.*group.*member;
+    }
+};
+template <class S, class G, class T>
+[[nodiscard]] constexpr MemberIn<S, G, T> in(G S::*group, T G::*member) {
+    return {group, member};
+}
+
+/// The table of a plain settings struct S: `SettingsTable("Title").real(&S::x, {...}).integer(in(&S::g, &G::n),
+/// {...})`. A member is named by its pointer, or by `in` where it lies in a group.
 class SettingsTable {
   public:
     struct Text {
@@ -42,58 +58,88 @@ class SettingsTable {
 
     explicit SettingsTable(std::string title) : title_(std::move(title)) {}
 
-    template <class S>
-    SettingsTable& boolean(bool S::*m, Text text, SettingEffect effect) {
-        return add<S>(m, std::move(text), SettingType::boolean, 0, 1, SettingScale::linear, effect);
+    template <class M>
+    SettingsTable& boolean(M m, Text text, SettingEffect effect) {
+        static_assert(std::is_same_v<ValueOf<M>, bool>);
+        return add(m, std::move(text), SettingType::boolean, 0, 1, SettingScale::linear, effect);
     }
-    template <class S>
-    SettingsTable& integer(int S::*m, Text text, int min, int max, SettingEffect effect,
+    template <class M>
+    SettingsTable& integer(M m, Text text, int min, int max, SettingEffect effect,
                            SettingScale scale = SettingScale::linear) {
-        return add<S>(m, std::move(text), SettingType::integer, min, max, scale, effect);
+        static_assert(std::is_same_v<ValueOf<M>, int>);
+        return add(m, std::move(text), SettingType::integer, min, max, scale, effect);
     }
     /// An integer that may take only the listed values, in rising order.
-    template <class S>
-    SettingsTable& integer_of(int S::*m, Text text, std::vector<double> allowed, SettingEffect effect) {
-        add<S>(m, std::move(text), SettingType::integer, allowed.front(), allowed.back(), SettingScale::linear,
-               effect);
+    template <class M>
+    SettingsTable& integer_of(M m, Text text, std::vector<double> allowed, SettingEffect effect) {
+        static_assert(std::is_same_v<ValueOf<M>, int>);
+        add(m, std::move(text), SettingType::integer, allowed.front(), allowed.back(), SettingScale::linear,
+            effect);
         settings_.back().allowed = std::move(allowed);
         return *this;
     }
-    template <class S>
-    SettingsTable& real(float S::*m, Text text, double min, double max, SettingScale scale = SettingScale::linear,
+    template <class M>
+    SettingsTable& real(M m, Text text, double min, double max, SettingScale scale = SettingScale::linear,
                         SettingEffect effect = SettingEffect::uniform) {
-        return add<S>(m, std::move(text), SettingType::real, min, max, scale, effect);
+        static_assert(std::is_same_v<ValueOf<M>, float>);
+        return add(m, std::move(text), SettingType::real, min, max, scale, effect);
     }
     /// Enumerators must be 0, 1, 2 … in the order of `names`.
-    template <class S, class Enum>
-    SettingsTable& choice(Enum S::*m, Text text, std::vector<std::string> names, SettingEffect effect) {
-        add<S>(m, std::move(text), SettingType::choice, 0, static_cast<double>(names.size()) - 1,
-               SettingScale::linear, effect);
+    template <class M>
+    SettingsTable& choice(M m, Text text, std::vector<std::string> names, SettingEffect effect) {
+        static_assert(std::is_enum_v<ValueOf<M>>);
+        add(m, std::move(text), SettingType::choice, 0, static_cast<double>(names.size()) - 1, SettingScale::linear,
+            effect);
         settings_.back().choices = std::move(names);
         return *this;
     }
+    /// One of `names`, held by name; the list may grow (add_choice).
+    template <class S>
+    SettingsTable& name(std::string S::*m, Text text, const std::vector<std::string>& (*names)(),
+                        SettingEffect effect) {
+        Setting& row = add_row(std::move(text), SettingType::choice, 0, static_cast<double>(names().size()) - 1,
+                               SettingScale::linear, effect);
+        row.choices = names();
+        row.get = [m, names](const void* object) { return index_of(static_cast<const S*>(object)->*m, names()); };
+        row.set = [m, names](void* object, double v) {
+            static_cast<S*>(object)->*m = names().at(static_cast<std::size_t>(v));
+        };
+        const S defaults{};
+        row.default_value = row.get(&defaults);
+        return *this;
+    }
+    /// Another value of a choice that is held by name.
+    void add_choice(std::string_view key, std::string name);
 
     [[nodiscard]] const std::string& title() const { return title_; }
     [[nodiscard]] const std::vector<Setting>& settings() const { return settings_; }
 
   private:
     template <class S, class T>
-    SettingsTable& add(T S::*m, Text text, SettingType type, double min, double max, SettingScale scale,
+    static S struct_of(T S::*);
+    template <class S, class G, class T>
+    static S struct_of(MemberIn<S, G, T>);
+    template <class M>
+    using StructOf = decltype(struct_of(std::declval<M>()));
+    template <class M>
+    using ValueOf = std::remove_cvref_t<std::invoke_result_t<M, StructOf<M>&>>;
+
+    /// Throws Error for a name that is not in the list.
+    [[nodiscard]] static double index_of(const std::string& name, const std::vector<std::string>& names);
+    Setting& add_row(Text text, SettingType type, double min, double max, SettingScale scale, SettingEffect effect);
+    template <class M>
+    SettingsTable& add(M m, Text text, SettingType type, double min, double max, SettingScale scale,
                        SettingEffect effect) {
-        Setting s;
-        s.key = std::move(text.key);
-        s.label = std::move(text.label);
-        s.help = std::move(text.help);
-        s.unit = std::move(text.unit);
-        s.type = type;
-        s.min = min;
-        s.max = max;
-        s.scale = scale;
-        s.effect = effect;
-        s.default_value = static_cast<double>(S{}.*m);
-        s.get = [m](const void* object) { return static_cast<double>(static_cast<const S*>(object)->*m); };
-        s.set = [m](void* object, double v) { static_cast<S*>(object)->*m = static_cast<T>(v); };
-        settings_.push_back(std::move(s));
+        using S = StructOf<M>;
+        Setting& row = add_row(std::move(text), type, min, max, scale, effect);
+        row.get = [m](const void* object) {
+            return static_cast<double>(std::invoke(m, *static_cast<const S*>(object)));
+        };
+        row.set = [m](void* object, double v) {
+            std::invoke(m, *static_cast<S*>(object)) = static_cast<ValueOf<M>>(v);
+        };
+        const S defaults{};
+        row.default_value = row.get(&defaults);
         return *this;
     }
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "engine/gl/debug_scope.h"
+#include "engine/graph/history.h"
 #include "engine/graph/pass_list.h"
 #include "engine/graph/require.h"
 #include "engine/graph/transient_pool.h"
@@ -42,6 +43,7 @@ void PassList::execute(TransientPool& pool, gl::GpuTimer* timer, gl::WorkCounter
         if (counters != nullptr) counters->begin_pass(info.name);
         const TimerScope time(timer, info.name);
         passes_[p].execute(PassContext(*this, p));
+        end_histories(p);
     }
     // What follows (a read-back, the next frame's list) knows nothing of this list's writes.
     glMemoryBarrier(GL_ALL_BARRIER_BITS);
@@ -58,6 +60,12 @@ void PassList::label_first_uses(std::size_t pass) {
     for (const Resource& resource : resources_)
         if (resource.slot >= 0 && resource.first_use == static_cast<int>(pass))
             pool_->impl_->label(resource.texture.id, resource.name);
+}
+
+void PassList::end_histories(std::size_t pass) {
+    for (const Resource& resource : resources_)
+        if (resource.history != nullptr && resource.last_use == static_cast<int>(pass))
+            resource.history->end_frame();
 }
 
 const PassList::Resource& PassList::used_by(std::size_t pass, std::uint32_t index) const {

@@ -19,6 +19,10 @@ void History::end_frame() {
     in_frame_ = false;
 }
 
+std::size_t History::bytes() const {
+    return pair_[0] ? 2 * gl::byte_size(pair_[0].desc()) : 0;
+}
+
 void History::release() {
     *this = History();
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 #include "engine/gl/texture.h"
@@ -18,6 +19,7 @@ class History {
     void invalidate() { valid_ = false; }
     void release();  ///< frees both: the feature is off
     [[nodiscard]] bool valid() const { return valid_; }
+    [[nodiscard]] std::size_t bytes() const;  ///< of both
     [[nodiscard]] const gl::Texture& previous() const { return pair_[1 - current_]; }
     [[nodiscard]] const gl::Texture& current() const { return pair_[current_]; }
 

@@ -1,5 +1,6 @@
 #include "engine/graph/pass_list.h"
 
+#include "engine/graph/history.h"
 #include "engine/graph/require.h"
 
 namespace tyndall {
@@ -34,6 +35,14 @@ BufferRef PassList::import_buffer(const std::string& name, GLuint buffer) {
     resource.buffer = buffer;
     resource.is_buffer = true;
     return {add_resource(std::move(resource)), 0};
+}
+
+PassList::HistoryRefs PassList::import_history(const std::string& name, History& history) {
+    HistoryRefs refs;
+    if (history.valid()) refs.previous = import(name + "_before", history.previous());
+    refs.current = import(name, history.current());
+    resources_[refs.current.index].history = &history;
+    return refs;
 }
 
 void PassList::add(const std::string& name, const std::function<void(PassBuilder&)>& setup, Execute execute) {

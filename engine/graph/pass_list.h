@@ -31,6 +31,7 @@ struct BufferRef {
 /// How a pass touches a resource; barriers follow from the pair (last writer, this use).
 enum class Access { sample, storage_read, storage_write, attach, indirect, vertex, uniform, copy };
 
+class History;
 class PassList;
 
 /// What a pass sees while it runs.
@@ -103,6 +104,13 @@ class PassList {
     /// A texture that lives elsewhere. Writing to it is an effect outside the list only if it is also exported.
     TextureRef import(const std::string& name, const gl::TextureView& texture);
     BufferRef import_buffer(const std::string& name, GLuint buffer);
+    /// This frame's pair of a history that began its frame (History::begin_frame) and outlives execute. `previous`
+    /// is empty while it is not valid. The history's frame ends once the last pass that uses `current` has run; a
+    /// list that culls those passes leaves a history without this frame, which is not valid in the next.
+    struct HistoryRefs {
+        TextureRef previous, current;
+    };
+    HistoryRefs import_history(const std::string& name, History& history);
 
     /// `setup` declares resources at once; `execute` runs later if the pass is not culled.
     void add(const std::string& name, const std::function<void(PassBuilder&)>& setup, Execute execute);
@@ -158,6 +166,7 @@ class PassList {
         std::uint32_t version = 0;
         int first_use = -1, last_use = -1;  ///< live passes, as indices into passes_
         int slot = -1;                      ///< of a live transient
+        History* history = nullptr;         ///< whose current texture it is
     };
     struct Use {
         std::uint32_t resource;
@@ -195,6 +204,7 @@ class PassList {
     void derive_barriers();
     void bind_slots();
     void label_first_uses(std::size_t pass);
+    void end_histories(std::size_t pass);
     void bind_framebuffer(std::size_t pass) const;
 
     std::vector<Resource> resources_;

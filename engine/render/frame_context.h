@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
+#include <string>
 
 #include "engine/gl/buffer.h"
 #include "engine/graph/pass_list.h"
@@ -13,7 +15,7 @@
 
 namespace tyndall {
 
-/// What every engine pass gets while the frame's pass list is built.
+/// What every pass of the engine and every module gets while the frame's pass list is built.
 struct FrameContext {
     const Scene& scene;
     GpuScene& gpu;
@@ -27,6 +29,7 @@ struct FrameContext {
     double time = 0;
     std::uint32_t frame_index = 0;
     bool count_work = false;
+    std::span<const std::string> layers = {};  ///< that will be read, see Renderer::layer_names
 };
 
 }  // namespace tyndall

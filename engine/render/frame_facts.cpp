@@ -9,51 +9,20 @@ bool is_dark(glm::vec3 v) {
     return v.x <= 0 && v.y <= 0 && v.z <= 0;
 }
 
-bool is_bounded(const Medium& medium) {
-    return medium.shape != Medium::Shape::global && medium.shape != Medium::Shape::height;
-}
-
-/// Half extents in the shape's frame.
-glm::vec3 half_extents(const Medium& medium) {
-    return medium.shape == Medium::Shape::box ? medium.size * 0.5f : medium.radii;
-}
-
-/// Of the shape's box in its own frame, turned and moved into the world.
-Aabb world_bounds(const Medium& medium) {
-    glm::mat4 to_world = glm::mat4_cast(medium.rotation);
-    to_world[3] = glm::vec4(medium.center, 1);
-    const glm::vec3 half = half_extents(medium);
-    return transformed({-half, half}, to_world);
-}
-
-bool contains(const Medium& medium, glm::vec3 point) {
-    const glm::vec3 p = glm::inverse(medium.rotation) * (point - medium.center) / half_extents(medium);
-    if (medium.shape == Medium::Shape::box) return glm::all(glm::lessThanEqual(glm::abs(p), glm::vec3(1)));
-    return glm::dot(p, p) <= 1;
-}
-
 void add_lights(FrameFacts& facts, const Scene& scene, const Frustum& frustum) {
     const auto sun = scene.sun();
     facts.has_sun = sun && !is_dark(scene.lights[*sun].intensity);
-    for (const Light& light : scene.lights) {
-        if (light.type == LightType::sun || is_dark(light.intensity)) continue;
-        const glm::vec3 position(scene.nodes[static_cast<std::size_t>(light.node)].world[3]);
-        if (!frustum.intersects_sphere(position, light.range)) continue;
-        ++facts.local_lights_in_view;
-        facts.has_shadowed_lights |= light.shadow;
-    }
+    facts.lamps = find_lamps(scene, frustum);
+    facts.local_lights_in_view = static_cast<int>(std::ranges::count(facts.lamps, true, &Lamp::in_view));
 }
 
-void add_media(FrameFacts& facts, const Scene& scene, const Frustum& frustum, glm::vec3 eye) {
+void add_media(FrameFacts& facts, const Scene& scene, const Frustum& frustum) {
     for (const Medium& medium : scene.media) {
-        const glm::vec3 sigma_t = medium.sigma_s + medium.sigma_a;
-        if (is_dark(sigma_t) && is_dark(medium.emission)) continue;
-        const bool bounded = is_bounded(medium);
-        if (bounded && !frustum.intersects(world_bounds(medium))) continue;
-        (bounded ? facts.has_local_media : facts.has_global_medium) = true;
-        facts.camera_inside_medium |= !bounded || contains(medium, eye);
-        facts.has_emissive_media |= !is_dark(medium.emission);
-        facts.max_extinction = std::max({facts.max_extinction, sigma_t.x, sigma_t.y, sigma_t.z});
+        if (is_dark(medium.sigma_s + medium.sigma_a) && is_dark(medium.emission)) continue;
+        if (!is_bounded(medium))
+            facts.has_global_medium = true;
+        else if (frustum.intersects(world_bounds(medium)))
+            facts.has_local_media = true;
     }
 }
 
@@ -64,7 +33,7 @@ FrameFacts compute_facts(const Scene& scene, const View& view) {
     facts.has_ambient = true;  // the procedural sky is always there
     const Frustum frustum = Frustum::from(view.view_projection);
     add_lights(facts, scene, frustum);
-    add_media(facts, scene, frustum, view.eye);
+    add_media(facts, scene, frustum);
     return facts;
 }
 

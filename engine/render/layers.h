@@ -1,21 +1,33 @@
 #pragma once
 
+#include <functional>
 #include <string>
+#include <vector>
 
 #include "engine/core/image.h"
-#include "engine/gl/texture.h"
+#include "engine/graph/pass_list.h"
+#include "engine/render/passes/gbuffer.h"
 
 namespace tyndall {
 
-struct LayerSource {
-    glm::ivec2 size{0};
-    float znear = 0;        ///< m
-    bool in_alpha = false;  ///< all channels are the texture's alpha
+/// `convert` of every pixel, into an image of `channels`.
+[[nodiscard]] Image convert_pixels(const Image& from, int channels,
+                                   const std::function<void(const float* in, float* out)>& convert);
+
+/// A picture of a frame that can be asked for by its name.
+struct Layer {
+    /// From all that the texture holds, and the frame's size, to what Renderer::read_layer gives.
+    using Decode = std::function<Image(const Image& texture, glm::ivec2 size)>;
+    [[nodiscard]] static Image rgb(const Image& texture, glm::ivec2 size);    ///< the first three channels
+    [[nodiscard]] static Image alpha(const Image& texture, glm::ivec2 size);  ///< the fourth, three times
+
+    std::string name;
+    TextureRef texture;  ///< empty: the frame has none, and all of the layer is `absent`
+    Decode decode = rgb;
+    float absent = 0;
 };
 
-/// Reads a layer of a frame (Renderer::layer_names) into the form that Renderer::read_layer promises. `texture` is
-/// empty where the frame had no medium: then scattering is 0 and transmittance 1; acceptance without one is 0.
-[[nodiscard]] Image decode_layer(const std::string& layer, const gl::TextureView& texture,
-                                 const LayerSource& source);
+/// Those of the G-buffer.
+[[nodiscard]] std::vector<Layer> surface_layers(const GBuffer& gbuffer, float znear);
 
 }  // namespace tyndall

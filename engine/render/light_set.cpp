@@ -33,20 +33,13 @@ glm::vec4 reach(const shared::GpuLight& light) {
     return glsl::cone_reach(position, axis, range, glsl::cone_cosine(glm::vec2(light.cone_shadow)));
 }
 
-void LightSet::update(const Scene& scene, const Frustum& frustum) {
+void LightSet::update(const Scene& scene, std::span<const Lamp> lamps) {
     lights_.clear();
     scene_index_.clear();
-    in_view_.clear();
-    indices_in_view_.clear();
-    for (std::size_t i = 0; i < scene.lights.size(); ++i) {
-        const Light& light = scene.lights[i];
-        if (light.type == LightType::sun || light.node < 0 || light.intensity == glm::vec3(0)) continue;
+    for (const Lamp& lamp : lamps) {
+        const Light& light = scene.lights[lamp.light];
         lights_.push_back(gpu_light(light, scene.nodes[static_cast<std::size_t>(light.node)].world, -1));
-        scene_index_.push_back(i);
-        const glm::vec4& sphere = lights_.back().position_range;
-        if (!frustum.intersects_sphere(glm::vec3(sphere), sphere.w)) continue;
-        in_view_.push_back(i);
-        indices_in_view_.push_back(lights_.size() - 1);
+        scene_index_.push_back(lamp.light);
     }
 }
 

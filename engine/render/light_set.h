@@ -6,8 +6,7 @@
 #include <vector>
 
 #include "engine/gl/buffer.h"
-#include "engine/scene/scene.h"
-#include "engine/scene/view.h"
+#include "engine/render/lamps.h"
 #include "shaders/shared/lights.h"
 
 namespace tyndall {
@@ -19,11 +18,11 @@ namespace tyndall {
 /// Centre (world, m) and radius of the smallest sphere around what a lamp reaches: its range, within its cone.
 [[nodiscard]] glm::vec4 reach(const shared::GpuLight& light);
 
-/// All point and spot lamps of a scene that shine, in its order.
+/// The lamps of a frame as shaders read them, in the order of FrameFacts::lamps.
 class LightSet {
   public:
-    /// Reads the scene's lamps where its nodes stand now, without shadow tiles.
-    void update(const Scene& scene, const Frustum& frustum);
+    /// Without shadow tiles.
+    void update(const Scene& scene, std::span<const Lamp> lamps);
     /// `first_tile(scene light)` as ShadowAtlasPass gives it.
     void set_shadow_tiles(const std::function<int(std::size_t)>& first_tile);
     /// Sends the lamps to the GPU.
@@ -31,16 +30,11 @@ class LightSet {
     void bind() const;  ///< at BINDING_LIGHTS
 
     [[nodiscard]] std::span<const shared::GpuLight> lights() const { return lights_; }
-    /// Scene indices of the lamps whose sphere of influence meets the frustum.
-    [[nodiscard]] std::span<const std::size_t> in_view() const { return in_view_; }
-    /// The same as indices of lights().
-    [[nodiscard]] std::span<const std::size_t> indices_in_view() const { return indices_in_view_; }
     [[nodiscard]] GLuint buffer() const { return buffer_.id(); }
 
   private:
     std::vector<shared::GpuLight> lights_;
     std::vector<std::size_t> scene_index_;  ///< of each of lights_
-    std::vector<std::size_t> in_view_, indices_in_view_;
     gl::Buffer buffer_;
 };
 

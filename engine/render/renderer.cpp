@@ -11,9 +11,9 @@
 #include "engine/gl/framebuffer.h"
 #include "engine/gl/readback.h"
 #include "engine/render/frame_context.h"
+#include "engine/render/frame_module.h"
 #include "engine/render/layers.h"
 #include "engine/render/light_set.h"
-#include "engine/render/passes/acceptance_view.h"
 #include "engine/render/passes/cluster.h"
 #include "engine/render/passes/depth_pyramid.h"
 #include "engine/render/passes/gbuffer.h"
@@ -23,22 +23,17 @@
 #include "engine/render/passes/sky.h"
 #include "engine/render/passes/tonemap.h"
 #include "engine/render/passes/transparent.h"
-#include "engine/render/volumetrics_adapter.h"
 #include "shaders/shared/bindings.h"
-#include "volumetrics/volumetrics.h"
 
 namespace tyndall {
 
 struct Renderer::Impl {
-    explicit Impl(ShaderLibrary& library)
-        : shaders(library),
-          volumetrics(std::make_unique<volumetrics::Volumetrics>(library)),
-          shadow_sun(library),
-          shadow_atlas(library) {}
+    Impl(ShaderLibrary& library, std::vector<FrameModule*> modules_)
+        : shaders(library), modules(std::move(modules_)), shadow_sun(library), shadow_atlas(library) {}
 
     ShaderLibrary& shaders;
+    std::vector<FrameModule*> modules;
     std::unique_ptr<GpuScene> scene;
-    std::unique_ptr<volumetrics::Volumetrics> volumetrics;
     LightSet lights;
     ShadowSunPass shadow_sun;
     ShadowAtlasPass shadow_atlas;
@@ -57,19 +52,19 @@ struct Renderer::Impl {
     gl::Texture color, display;
     gl::Framebuffer display_framebuffer;
     std::optional<glm::mat4> previous_view_projection;  ///< of the frame before, if this one continues it
-    float znear = 0.1f;
-    struct Layer {
+    struct KeptLayer {
         gl::TextureView texture;
-        bool in_alpha = false;
+        Layer layer;
     };
-    std::map<std::string, Layer> layers;  ///< those that were asked for
+    std::map<std::string, KeptLayer> layers;  ///< those that were asked for
     std::string layer;
 
     void resize(glm::ivec2 size);
     [[nodiscard]] shared::FrameData frame_data(const FrameContext& frame) const;
     LightSources add_lights(FrameContext& frame, const GBuffer& g, const ShadowSunPass::Output& sun);
-    void add_passes(FrameContext& frame, LightSources& sources, const FrameOptions& options);
-    void export_layer(const std::string& name, TextureRef ref);
+    void add_passes(FrameContext& frame, LightSources& sources);
+    [[nodiscard]] TextureRef add_display(FrameContext& frame, TextureRef radiance);
+    void keep_layer(const Layer& layer);
     void execute(const shared::FrameData& frame, const FrameOptions& options);
 };
 
@@ -122,7 +117,7 @@ LightSources Renderer::Impl::add_lights(FrameContext& frame, const GBuffer& g, c
         else
             passes.skip("depth_pyramid", "occlusion culling is off");
         const ClusterPass::Output clusters = cluster.add(frame, lights, pyramid);
-        const ShadowAtlasPass::Output shadows = shadow_atlas.add(frame, lights.in_view());
+        const ShadowAtlasPass::Output shadows = shadow_atlas.add(frame);
         lights.set_shadow_tiles([this](std::size_t light) { return shadow_atlas.first_tile(light); });
         lights.upload();
         sample(shadows.atlas);
@@ -149,68 +144,48 @@ LightSources Renderer::Impl::add_lights(FrameContext& frame, const GBuffer& g, c
     return sources;
 }
 
-void Renderer::Impl::add_passes(FrameContext& frame, LightSources& sources, const FrameOptions& options) {
+void Renderer::Impl::add_passes(FrameContext& frame, LightSources& sources) {
     const ShadowSunPass::Output sun = shadow_sun.add(frame);
-    const bool motion = facts.has_medium() && volumetrics::reads_motion(options.volumetrics);
+    const bool motion = std::ranges::any_of(modules, [&](FrameModule* m) { return m->wants_motion(frame); });
     const GBuffer g = gbuffer.add(frame, motion ? previous_view_projection : std::nullopt);
     sources = add_lights(frame, g, sun);
-
-    volumetrics::Inputs media = volumetrics_inputs(frame);
-    add_lighting_inputs(media, sources, lights, g.depth);
-    media.motion = g.motion;
-    media.transparents = transparent.gather(frame);
-    media.acceptance = options.show_acceptance || layers.contains("acceptance");
-    volumetrics->prepare(media, options.volumetrics);
-    const volumetrics::LightTransmittance transmittance =
-        volumetrics->add_light_passes(passes, media, options.volumetrics);
-    if (transmittance.any) {
-        sources.light_volumes = transmittance.light_volumes;
-        for (const TextureRef volume : {transmittance.sun_volume, transmittance.lamp_volumes})
-            if (volume) sources.textures.push_back(volume);
-        sources.medium_transmittance = true;
-        sources.bind = [this, bind = sources.bind] {
-            bind();
-            volumetrics->bind_uniforms();
-        };
-    }
+    const bool transparents = transparent.gather(frame);
+    for (FrameModule* module : modules) module->add_before_lighting(frame, g, transparents, sources);
 
     TextureRef radiance = passes.import("color", color);
     radiance = add_lighting(frame, g, sources, radiance);
     radiance = sky.add_background(frame, {sources.sky, {}}, g.depth, radiance);
-    const volumetrics::Outputs media_light = volumetrics->add_passes(passes, media, options.volumetrics);
-    radiance = volumetrics->composite(passes, media_light, radiance);
-    radiance = transparent.add(frame, g, sources, *volumetrics, media_light.fog, radiance);
-    const TextureRef screen = passes.import("display", display);
+    for (FrameModule* module : modules) radiance = module->add_after_lighting(frame, radiance);
+    radiance = transparent.add(frame, g, sources, modules, radiance);
     passes.export_texture(radiance);
-    passes.export_texture(options.show_acceptance && media_light.acceptance
-                              ? add_acceptance_view(frame, media_light.acceptance, screen)
-                              : add_tonemap(frame, radiance, screen));
+    passes.export_texture(add_display(frame, radiance));
 
-    const TextureRef transmitted = media_light.transmittance ? media_light.transmittance : media_light.scattering;
-    const std::pair<const char*, TextureRef> refs[] = {{"color", radiance},
-                                                       {"scattering", media_light.scattering},
-                                                       {"transmittance", transmitted},
-                                                       {"depth", g.depth},
-                                                       {"albedo", g.albedo},
-                                                       {"normal", g.normal},
-                                                       {"emissive", g.emissive},
-                                                       {"acceptance", media_light.acceptance}};
-    for (const auto& [name, ref] : refs)
-        if (layers.contains(name)) export_layer(name, ref);
-    if (layers.contains("transmittance")) layers["transmittance"].in_alpha = !media_light.transmittance;
+    if (layers.contains("color")) layers["color"].texture = color;
+    for (const Layer& own : surface_layers(g, frame.view.znear)) keep_layer(own);
+    for (const FrameModule* module : modules)
+        for (const Layer& added : module->layers()) keep_layer(added);
 }
 
-/// A pass that runs last and remembers the texture: nothing later takes its memory.
-void Renderer::Impl::export_layer(const std::string& name, TextureRef ref) {
-    if (name == "color") layers[name].texture = color;
-    if (!ref || name == "color") return;
+TextureRef Renderer::Impl::add_display(FrameContext& frame, TextureRef radiance) {
+    const TextureRef screen = passes.import("display", display);
+    for (FrameModule* module : modules)
+        if (const TextureRef shown = module->add_display(frame, screen)) return shown;
+    return add_tonemap(frame, radiance, screen);
+}
+
+/// If it was asked for: a pass that runs last remembers the texture, so that nothing later takes its memory.
+void Renderer::Impl::keep_layer(const Layer& layer) {
+    const auto asked = layers.find(layer.name);
+    if (asked == layers.end()) return;
+    asked->second.layer = layer;
+    if (!layer.texture) return;
     passes.add(
-        "export/" + name,
+        "export/" + layer.name,
         [&](PassBuilder& pass) {
-            pass.sample(ref);
+            pass.sample(layer.texture);
             pass.keep();
         },
-        [this, name, ref](const PassContext& pass) { layers[name].texture = pass.texture(ref); });
+        [&kept = asked->second](const PassContext& pass) { kept.texture = pass.texture(kept.layer.texture); });
 }
 
 void Renderer::Impl::execute(const shared::FrameData& frame, const FrameOptions& options) {
@@ -225,7 +200,8 @@ void Renderer::Impl::execute(const shared::FrameData& frame, const FrameOptions&
     timings = options.timer != nullptr ? options.timer->results() : std::vector<gl::GpuTimer::Scope>();
 }
 
-Renderer::Renderer(ShaderLibrary& shaders) : impl_(std::make_unique<Impl>(shaders)) {}
+Renderer::Renderer(ShaderLibrary& shaders, std::vector<FrameModule*> modules)
+    : impl_(std::make_unique<Impl>(shaders, std::move(modules))) {}
 Renderer::~Renderer() = default;
 
 void Renderer::prepare(const Scene& scene, float anisotropy) {
@@ -239,18 +215,18 @@ void Renderer::render(const Scene& scene, const View& view, glm::ivec2 size, con
     r.layers.clear();
     std::vector<std::string> wanted = options.more_layers;
     wanted.push_back(options.layer);
+    const std::vector<std::string> known = layer_names(r.modules);
     for (const std::string& name : wanted) {
-        if (std::ranges::count(layer_names(), name) == 0)
-            throw UsageError(fmt::format("layer '{}': expected one of {}", name, fmt::join(layer_names(), ", ")));
+        if (std::ranges::count(known, name) == 0)
+            throw UsageError(fmt::format("layer '{}': expected one of {}", name, fmt::join(known, ", ")));
         r.layers[name] = {};
     }
     r.resize(size);
     r.scene->update(scene);
     r.layer = options.layer;
-    r.znear = view.znear;
     r.facts = compute_facts(scene, view);
     r.facts.has_ambient = r.facts.has_sun && options.render.ambient > 0;
-    r.lights.update(scene, Frustum::from(view.view_projection));
+    r.lights.update(scene, r.facts.lamps);
     r.passes = PassList();
 
     shared::FrameData data{};
@@ -265,16 +241,17 @@ void Renderer::render(const Scene& scene, const View& view, glm::ivec2 size, con
                        .size = size,
                        .time = options.time,
                        .frame_index = options.frame_index,
-                       .count_work = options.count_work};
+                       .count_work = options.count_work,
+                       .layers = wanted};
     data = r.frame_data(frame);
     LightSources sources;
-    r.add_passes(frame, sources, options);
+    r.add_passes(frame, sources);
     r.execute(data, options);
     r.previous_view_projection = view.view_projection;
 }
 
 void Renderer::invalidate_history() {
-    impl_->volumetrics = std::make_unique<volumetrics::Volumetrics>(impl_->shaders);
+    for (FrameModule* module : impl_->modules) module->forget_history();
     impl_->previous_view_projection.reset();
 }
 
@@ -298,12 +275,17 @@ Image Renderer::read_layer() const {
 }
 Image Renderer::read_layer(const std::string& name) const {
     TYNDALL_CHECK(impl_->layers.contains(name));
-    const Impl::Layer& layer = impl_->layers.at(name);
-    return decode_layer(name, layer.texture, {impl_->color.size(), impl_->znear, layer.in_alpha});
+    const auto& [texture, layer] = impl_->layers.at(name);
+    if (texture) return layer.decode(gl::read_texture(texture), size());
+    Image image(size(), 3);
+    std::ranges::fill(image.pixels, layer.absent);
+    return image;
 }
-const std::vector<std::string>& Renderer::layer_names() {
-    static const std::vector<std::string> names{"color",  "scattering", "transmittance", "depth",
-                                                "albedo", "normal",     "emissive",      "acceptance"};
+std::vector<std::string> Renderer::layer_names(std::span<FrameModule* const> modules) {
+    std::vector<std::string> names{"color"};
+    for (const Layer& layer : surface_layers({}, 0)) names.push_back(layer.name);
+    for (const FrameModule* module : modules)
+        for (const Layer& layer : module->layers()) names.push_back(layer.name);
     return names;
 }
 const FrameFacts& Renderer::facts() const {
@@ -324,9 +306,6 @@ std::size_t Renderer::texture_bytes() const {
     for (const PassList::TextureInfo& texture : impl_->passes.textures())
         if (!texture.transient) bytes += gl::byte_size(texture.desc);
     return bytes;
-}
-std::size_t Renderer::volumetrics_bytes() const {
-    return impl_->volumetrics->persistent_bytes();
 }
 Renderer::DrawCounts Renderer::draw_counts() const {
     const DrawList& draws = impl_->gbuffer.draws();

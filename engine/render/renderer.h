@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,9 +17,10 @@
 #include "engine/scene/scene.h"
 #include "engine/scene/view.h"
 #include "engine/shader/shader_library.h"
-#include "volumetrics/settings.h"
 
 namespace tyndall {
+
+class FrameModule;
 
 /// What one frame is drawn with besides the scene and the view.
 struct FrameOptions {
@@ -28,12 +30,11 @@ struct FrameOptions {
     gl::GpuTimer* timer = nullptr;  ///< per-pass times; render() begins its frame and copies its results
     std::string layer = "color";    ///< the layer that read_layer may be asked for (layer_names)
     std::vector<std::string> more_layers = {};  ///< others that it may be asked for by name
-    bool show_acceptance = false;  ///< the display shows the layer acceptance, while there is a temporal filter
-    volumetrics::Settings volumetrics;
     RenderSettings render;
 };
 
-/// Draws a scene deferred, into its own framebuffer: presenting is a blit of `display_framebuffer`.
+/// Draws a scene deferred, into its own framebuffer: presenting is a blit of `display_framebuffer`. What else is to
+/// be in the picture comes from modules.
 ///
 ///     Renderer renderer(shaders);
 ///     renderer.prepare(scene);
@@ -43,7 +44,8 @@ struct FrameOptions {
 /// A GL 4.5 context must be current in every call and on destruction.
 class Renderer {
   public:
-    explicit Renderer(ShaderLibrary& shaders);
+    /// `modules` outlive the renderer, each serves it alone, and they take their turns in this order.
+    explicit Renderer(ShaderLibrary& shaders, std::vector<FrameModule*> modules = {});
     ~Renderer();
     Renderer(const Renderer&) = delete;
     Renderer& operator=(const Renderer&) = delete;
@@ -67,15 +69,14 @@ class Renderer {
     [[nodiscard]] gl::TextureView color() const;    ///< RGBA16F, linear radiance in cd/m²
     /// What a player sees, 4 channels 0..1, row 0 at the top. Waits for the GPU.
     [[nodiscard]] Image read_display() const;
-    /// FrameOptions::layer of the last frame, linear, 3 channels (depth: 1), row 0 at the top: color, scattering
-    /// and emissive in cd/m²; transmittance 0..1 (scattering 0 and transmittance 1 without a medium); depth as view
-    /// depth in metres, 0 where there is only sky; albedo; normal in world space, 0 on the sky; acceptance, the
-    /// share of earlier frames in each pixel's light (volumetrics::Outputs), from red (none) to green (all of it),
-    /// black without a temporal filter.
+    /// FrameOptions::layer of the last frame, linear, 3 channels (depth: 1), row 0 at the top: color and emissive
+    /// in cd/m²; depth as view depth in metres, 0 where there is only sky; albedo; normal in world space, 0 on the
+    /// sky; and those of the modules.
     [[nodiscard]] Image read_layer() const;
     /// The same for one of FrameOptions::more_layers.
     [[nodiscard]] Image read_layer(const std::string& name) const;
-    [[nodiscard]] static const std::vector<std::string>& layer_names();
+    /// The renderer's own, and those that modules add.
+    [[nodiscard]] static std::vector<std::string> layer_names(std::span<FrameModule* const> modules);
 
     [[nodiscard]] const FrameFacts& facts() const;
     [[nodiscard]] const PassList& passes() const;
@@ -85,8 +86,6 @@ class Renderer {
 
     /// Bytes of transient and persistent render targets, shadow maps included; the scene's pictures are not.
     [[nodiscard]] std::size_t texture_bytes() const;
-    /// What of this the volumetrics module keeps between frames.
-    [[nodiscard]] std::size_t volumetrics_bytes() const;
 
     /// Draw statistics of the G-buffer pass.
     struct DrawCounts {

@@ -4,9 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
 #include <nlohmann/json.hpp>
-#include <string_view>
 
 #include "engine/core/error.h"
 #include "engine/core/files.h"
@@ -31,7 +29,7 @@ struct Field {
         if (!json.contains(key)) throw Error(fmt::format("{}: \"{}\" is missing", where, key));
         return {json.at(key), where + "." + key};
     }
-    void require_object(std::initializer_list<std::string_view> keys) const {
+    void require_object(const std::vector<std::string_view>& keys) const {
         if (!json.is_object()) fail("an object");
         for (const auto& item : json.items()) {
             if (std::find(keys.begin(), keys.end(), item.key()) == keys.end())
@@ -70,35 +68,43 @@ struct Field {
     }
 };
 
-Medium::Shape parse_shape(const Field& field) {
-    using Shape = Medium::Shape;
-    static constexpr std::pair<std::string_view, Shape> shapes[] = {
-        {"global", Shape::global},       {"height", Shape::height}, {"sphere", Shape::sphere},
-        {"ellipsoid", Shape::ellipsoid}, {"box", Shape::box},       {"grid", Shape::grid}};
-    for (const auto& [name, shape] : shapes)
-        if (field.json == name) return shape;
-    field.fail("one of global, height, sphere, ellipsoid, box");
+/// What a media file says of a shape.
+struct ShapeRow {
+    std::string_view name;
+    Medium::Shape shape;
+    std::vector<std::string_view> own_keys;
+    const char* extent = nullptr;  ///< key of its size; none: fills space
+    glm::vec3 (*half_extent)(const Field& extent) = nullptr;
+};
+
+const ShapeRow shapes[] = {
+    {"global", Medium::Shape::global, {"phase"}},
+    {"height", Medium::Shape::height, {"phase", "base", "falloff"}},
+    {"sphere", Medium::Shape::sphere, {}, "radius", [](const Field& field) { return glm::vec3(field.positive()); }},
+    {"ellipsoid",
+     Medium::Shape::ellipsoid,
+     {},
+     "radii",
+     [](const Field& field) { return field.vector<3>(&Field::positive); }},
+    {"box", Medium::Shape::box, {}, "size", [](const Field& field) {
+         return field.vector<3>(&Field::positive) * 0.5f;
+     }}};
+
+const ShapeRow& parse_shape(const Field& medium) {
+    const Field field = medium.at("shape");
+    for (const ShapeRow& row : shapes)
+        if (field.json == row.name) return row;
+    if (field.json == "grid") throw Error(medium.where + ": grid media are not supported by this version");
+    std::vector<std::string_view> names;
+    for (const ShapeRow& row : shapes) names.push_back(row.name);
+    field.fail(fmt::format("one of {}", fmt::join(names, ", ")));
 }
 
-void require_known_keys(const Field& field, Medium::Shape shape) {
-    switch (shape) {
-        case Medium::Shape::global:
-            return field.require_object({"shape", "scattering", "absorption", "anisotropy", "phase", "emission"});
-        case Medium::Shape::height:
-            return field.require_object(
-                {"shape", "scattering", "absorption", "anisotropy", "phase", "emission", "base", "falloff"});
-        case Medium::Shape::sphere:
-            return field.require_object({"shape", "scattering", "absorption", "anisotropy", "emission", "center",
-                                         "radius", "rotation", "softness", "noise", "height"});
-        case Medium::Shape::ellipsoid:
-            return field.require_object({"shape", "scattering", "absorption", "anisotropy", "emission", "center",
-                                         "radii", "rotation", "softness", "noise", "height"});
-        case Medium::Shape::box:
-            return field.require_object({"shape", "scattering", "absorption", "anisotropy", "emission", "center",
-                                         "size", "rotation", "softness", "noise", "height"});
-        case Medium::Shape::grid:
-            throw Error(field.where + ": grid media are not supported by this version");
-    }
+void require_known_keys(const Field& field, const ShapeRow& shape) {
+    std::vector<std::string_view> keys{"shape", "scattering", "absorption", "anisotropy", "emission"};
+    keys.insert(keys.end(), shape.own_keys.begin(), shape.own_keys.end());
+    if (shape.extent) keys.insert(keys.end(), {"center", shape.extent, "rotation", "softness", "noise", "height"});
+    field.require_object(keys);
 }
 
 void parse_phase(const Field& field, Medium& medium) {
@@ -127,11 +133,9 @@ void parse_noise(const Field& field, Medium& medium) {
     }
 }
 
-void parse_bounded_shape(const Field& field, Medium& medium) {
+void parse_bounded_shape(const Field& field, const ShapeRow& shape, Medium& medium) {
     medium.center = field.at("center").vector<3>(&Field::number);
-    if (medium.shape == Medium::Shape::sphere) medium.radii = glm::vec3(field.at("radius").positive());
-    if (medium.shape == Medium::Shape::ellipsoid) medium.radii = field.at("radii").vector<3>(&Field::positive);
-    if (medium.shape == Medium::Shape::box) medium.size = field.at("size").vector<3>(&Field::positive);
+    medium.half_extent = shape.half_extent(field.at(shape.extent));
     if (field.has("rotation")) {
         const Field rotation = field.at("rotation");
         const glm::vec4 q = rotation.vector<4>(&Field::number);
@@ -148,12 +152,12 @@ void parse_bounded_shape(const Field& field, Medium& medium) {
 
 Medium parse_medium(const Field& field) {
     if (!field.json.is_object()) field.fail("an object");
+    const ShapeRow& shape = parse_shape(field);
     Medium medium;
-    medium.shape = parse_shape(field.at("shape"));
-    const bool unbounded = medium.shape == Medium::Shape::global || medium.shape == Medium::Shape::height;
-    if (!unbounded && field.has("phase"))
+    medium.shape = shape.shape;
+    if (is_bounded(medium) && field.has("phase"))
         throw Error(field.where + ".phase: only the shapes global and height have one");
-    require_known_keys(field, medium.shape);
+    require_known_keys(field, shape);
     medium.sigma_s = field.at("scattering").vector<3>(&Field::coefficient);
     if (field.has("absorption")) medium.sigma_a = field.at("absorption").vector<3>(&Field::coefficient);
     if (field.has("emission")) medium.emission = field.at("emission").vector<3>(&Field::radiance);
@@ -161,15 +165,26 @@ Medium parse_medium(const Field& field) {
         medium.anisotropy =
             field.at("anisotropy").number("a number between -1 and 1", [](float v) { return v > -1 && v < 1; });
     if (field.has("phase")) parse_phase(field.at("phase"), medium);
-    if (medium.shape == Medium::Shape::height) {
-        parse_height_profile(field, medium);
-    } else if (medium.shape != Medium::Shape::global) {
-        parse_bounded_shape(field, medium);
-    }
+    if (medium.shape == Medium::Shape::height) parse_height_profile(field, medium);
+    if (is_bounded(medium)) parse_bounded_shape(field, shape, medium);
     return medium;
 }
 
 }  // namespace
+
+std::string_view name_of(Medium::Shape shape) {
+    return std::ranges::find(shapes, shape, &ShapeRow::shape)->name;
+}
+
+bool is_bounded(const Medium& medium) {
+    return medium.shape != Medium::Shape::global && medium.shape != Medium::Shape::height;
+}
+
+Aabb world_bounds(const Medium& bounded) {
+    glm::mat4 to_world = glm::mat4_cast(bounded.rotation);
+    to_world[3] = glm::vec4(bounded.center, 1);
+    return transformed({-bounded.half_extent, bounded.half_extent}, to_world);
+}
 
 std::vector<Medium> parse_media(const Json& json, const std::string& where) {
     const Field root{json, where};

@@ -5,21 +5,23 @@
 #include <glm/gtc/quaternion.hpp>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <string_view>
 #include <vector>
+
+#include "engine/scene/aabb.h"
 
 namespace tyndall {
 
 /// One entry of a media list, as in a media file or a scene's extras.media. Coefficients in 1/m at density 1.
 struct Medium {
-    enum class Shape { global, height, sphere, ellipsoid, box, grid };
+    enum class Shape { global, height, sphere, ellipsoid, box };
     Shape shape = Shape::global;
     glm::vec3 sigma_s{0}, sigma_a{0};
     float anisotropy = 0;   ///< g in (-1, 1); g > 0 scatters forward
     glm::vec3 emission{0};  ///< emitted radiance per metre
     bool rayleigh = false;  ///< global and height: Rayleigh's phase function, as air; then anisotropy is 0
     glm::vec3 center{0};
-    glm::vec3 radii{1};  ///< sphere (equal) and ellipsoid; m
-    glm::vec3 size{1};   ///< box: full edge lengths; m
+    glm::vec3 half_extent{1};  ///< radii, half edges of a box; m
     glm::quat rotation{1, 0, 0, 0};
     float softness = 0;      ///< m; linear ramp at the rim, inside the shape
     float noise_scale = 0;   ///< m per period; 0 = no noise
@@ -27,9 +29,14 @@ struct Medium {
     int noise_seed = 0;
     bool height_profile = false;  ///< shape height, or a bounded shape with "height"
     float base = 0, falloff = 1;  ///< density exp(-(y - base) / falloff), m
-    std::string file;             ///< grid
-    float grid_scale = 1, grid_density = 1;
 };
+
+/// As media files call it.
+[[nodiscard]] std::string_view name_of(Medium::Shape shape);
+/// Else it fills space.
+[[nodiscard]] bool is_bounded(const Medium& medium);
+/// Of a bounded medium, and not too small: those of the box round it.
+[[nodiscard]] Aabb world_bounds(const Medium& bounded);
 
 /// Parses {"media": [...]} or the bare list. `where` starts each message: path and index ("fog.json:
 /// media[2].radius: …"). Unknown keys, wrong types, non-finite numbers, coefficients outside 0 to 1e6 1/m, |g| >=

@@ -26,20 +26,6 @@ int add_node(Scene& scene, const std::string& name, glm::vec3 position, glm::vec
 
 }  // namespace
 
-// Every corner's coordinate is a sum of one of two products per axis: the smaller ones make the minimum, the larger
-// ones the maximum.
-Aabb transformed(const Aabb& box, const glm::mat4& m) {
-    if (box.empty()) return box;
-    Aabb out{glm::vec3(m[3]), glm::vec3(m[3])};
-    for (int axis = 0; axis < 3; ++axis) {
-        const glm::vec3 a = glm::vec3(m[axis]) * box.min[axis];
-        const glm::vec3 b = glm::vec3(m[axis]) * box.max[axis];
-        out.min += glm::min(a, b);
-        out.max += glm::max(a, b);
-    }
-    return out;
-}
-
 const Camera* Scene::find_camera(const std::string& name) const {
     if (const Camera* camera = find_named(cameras, name)) return camera;
     const auto by_node = std::ranges::find_if(cameras, [&](const Camera& c) {

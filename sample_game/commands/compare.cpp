@@ -20,7 +20,7 @@ const std::vector<std::string> metric_names{"rmse", "relrmse", "relmse", "psnr",
 constexpr float visible_difference = 10.0f / 255.0f + 1e-6f;
 constexpr int band_radius = 3;  ///< px
 
-struct Options {
+struct CompareOptions {
     std::string a, b;
     std::vector<std::string> metrics;
     std::optional<std::string> heatmap, threshold, edges;
@@ -44,13 +44,13 @@ Image read_finite(const std::string& path) {
     return image;
 }
 
-Image threshold_of(const Options& o, const Image& a, const Image& b) {
+Image threshold_of(const CompareOptions& o, const Image& a, const Image& b) {
     if (!holds_radiance(o.b)) return threshold_picture(a, b, visible_difference);
     const float white = display_white(b);
     return threshold_picture(radiance_to_display(a, white), radiance_to_display(b, white), visible_difference);
 }
 
-void run(const Options& o) {
+void run(const CompareOptions& o) {
     if (holds_radiance(o.a) != holds_radiance(o.b))
         throw UsageError(fmt::format(
             "cannot compare {} with {}: one holds display values, the other linear radiance", o.a, o.b));
@@ -95,7 +95,7 @@ void run(const Options& o) {
 }  // namespace
 
 void add_compare_command(CLI::App& app) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<CompareOptions>();
     CLI::App* command = app.add_subcommand("compare", "Error of picture A against reference B");
     command->add_option("A", options->a)->required();
     command->add_option("B", options->b)->required();

@@ -9,6 +9,7 @@
 #include "engine/core/files.h"
 #include "sample_game/commands/commands.h"
 #include "session/session.h"
+#include "volumetrics/technique.h"
 
 namespace tyndall {
 namespace {

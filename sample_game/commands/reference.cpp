@@ -24,7 +24,7 @@ TYNDALL_GLSL_END
 namespace tyndall {
 namespace {
 
-struct Options {
+struct ReferenceOptions {
     SceneOptions scene;
     ViewOptions view;
     std::string output, layer = "color";
@@ -72,7 +72,7 @@ void check_folder(const std::filesystem::path& file) {
         throw Error(fmt::format("{}: cannot be written: no such folder, or a folder itself", file.string()));
 }
 
-void run(const Options& o) {
+void run(const ReferenceOptions& o) {
     check_picture_name(o.output);
     check_folder(o.output);
     o.view.check();
@@ -87,7 +87,7 @@ void run(const Options& o) {
     Scene scene = o.scene.load();
     animate(scene, o.view.time);
     const View view = o.view.view(scene, size);
-    if (volumetrics.technique == volumetrics::Technique::off) scene.media.clear();
+    if (volumetrics.technique == "off") scene.media.clear();
     const reference::Reference integrator(
         scene, {.light_transmittance = volumetrics.light_transmittance,
                 .phase = {.kind = static_cast<reference::ParticlePhase::Kind>(volumetrics.phase),
@@ -114,7 +114,7 @@ void run(const Options& o) {
 }  // namespace
 
 void add_reference_command(CLI::App& app) {
-    auto o = std::make_shared<Options>();
+    auto o = std::make_shared<ReferenceOptions>();
     CLI::App* command = app.add_subcommand(
         "reference",
         "The same picture from the ground truth: double precision on the CPU, exact visibility, no GL. Of the "

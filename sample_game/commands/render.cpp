@@ -11,7 +11,7 @@
 namespace tyndall {
 namespace {
 
-struct Options {
+struct RenderOptions {
     DrawOptions draw;
     ViewOptions view;
     std::string output;
@@ -21,7 +21,7 @@ struct Options {
     std::string layer = "color";
 };
 
-void run(const Options& o) {
+void run(const RenderOptions& o) {
     check_picture_name(o.output);
     o.view.check();
 
@@ -42,7 +42,7 @@ void run(const Options& o) {
 }  // namespace
 
 void add_render_command(CLI::App& app) {
-    auto o = std::make_shared<Options>();
+    auto o = std::make_shared<RenderOptions>();
     CLI::App* command = app.add_subcommand("render", "One picture: PNG as a player sees it, EXR linear radiance");
     o->draw.add_to(*command, "", "1280x720");
     command->add_option("-o,--output", o->output, "OUT.png or OUT.exr")->required();
@@ -56,7 +56,7 @@ void add_render_command(CLI::App& app) {
         ->check(CLI::Range(0.0, 10.0))
         ->capture_default_str();
     command->add_option("--layer", o->layer, "what to write")
-        ->check(CLI::IsMember(Renderer::layer_names()))
+        ->check(CLI::IsMember(Session::layer_names()))
         ->capture_default_str();
     command->add_option("--stats", o->stats, "JSON with passes, times, work counts, memory and driver");
     command->callback([o] { run(*o); });

@@ -162,7 +162,7 @@ DebugUi::Requests DebugUi::window(Session& session, LevelLogic& logic) {
         tab("Settings", [&] {
             level(session, logic);
             presets(session);
-            settings_panel(session.settings, session.options.show_acceptance);
+            settings_panel(session.settings, session.volumetrics.show_acceptance);
         });
         tab("Passes", [&] { passes_panel(session); });
         tab("Textures", [&] { viewer_->panel(session.renderer->passes()); });

@@ -1,11 +1,11 @@
 #pragma once
 
-#include <optional>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "volumetrics/settings.h"
+#include "volumetrics/technique.h"
 
 namespace tyndall {
 
@@ -14,8 +14,8 @@ struct SettingsSection {
     std::string title;
     std::vector<std::string> prefixes;  ///< of its rows' keys
     std::string summary;                ///< key of the row whose value stands in the heading; empty: none
-    std::vector<volumetrics::Technique> techniques;  ///< that read these settings; empty: all
-    std::optional<volumetrics::Technique> own;       ///< the technique that it is all about: open at first
+    std::function<bool(const volumetrics::TechniqueDesc&)> matters;  ///< the technique reads these settings
+    std::string own;  ///< the technique that it is all about, open at first; empty: none
 };
 
 /// In the panel's order. Rows that belong to none come before them.
@@ -23,6 +23,6 @@ struct SettingsSection {
 /// Null: none.
 [[nodiscard]] const SettingsSection* section_of(std::string_view key);
 /// Whether the panel shows the section while `technique` is chosen.
-[[nodiscard]] bool matters(const SettingsSection& section, volumetrics::Technique technique);
+[[nodiscard]] bool matters(const SettingsSection& section, const std::string& technique);
 
 }  // namespace tyndall

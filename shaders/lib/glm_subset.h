@@ -7,10 +7,10 @@
 //     TYNDALL_GLSL_END
 //     ... tyndall::glsl::phase_henyey_greenstein(g, cos_theta) ...
 //
-// A file of shaders/lib keeps to what both languages read the same way: swizzles of one component, structs
-// returned instead of out parameters and filled member by member, no arrays as values, no implicit
-// conversions, float literals with the suffix f, unsigned ones with u. The functions have internal linkage, so
-// any number of .cpp files may include them; do not include them from a header.
+// A file of shaders/lib, and shape.glsl with what it includes, keeps to what both languages read the same way:
+// swizzles of one component, structs returned instead of out parameters and filled member by member, no arrays as
+// values, no implicit conversions, float literals with the suffix f, unsigned ones with u. The functions have
+// internal linkage, so any number of .cpp files may include them; do not include them from a header.
 
 #include <glm/glm.hpp>
 

@@ -14,7 +14,7 @@ struct Billboard {
     vec4 slab;  // x nearest, y farthest view depth (m) of the space it stands for; z index of the local medium, or BILLBOARD_*
 };
 
-struct Particle {
+struct ParticleSprite {
     vec4 center_radius;  // xyz from the eye, along the axes of the world, w radius (m); 0: not drawn
     vec4 light;          // rgb what it sends to the eye, radiance m^2; a what the sum of it is known for, see particles_resolve.frag
     vec4 extinction;     // rgb optical cross-section (m^2); w 1: of a local medium, 0: of the global ones

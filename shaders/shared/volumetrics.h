@@ -5,6 +5,7 @@
 
 #define MAX_HEIGHT_MEDIA 4
 
+// volumetrics::Shape.
 #define SHAPE_ELLIPSOID 0
 #define SHAPE_BOX 1
 
@@ -40,7 +41,7 @@ struct HeightMedium {
 
 struct LocalMedium {
     mat4 world_to_shape;   // world to the shape's centre frame in metres (rotation and translation only)
-    vec4 extent_softness;  // xyz half extents or radii (m), w softness (m)
+    vec4 extent_softness;  // xyz half the size of the box round the shape, in its frame (m), w softness (m)
     vec4 sigma_s_g;        // rgb 1/m at density 1, w anisotropy
     vec4 sigma_a_shape;    // rgb 1/m at density 1, w SHAPE_*
     vec4 emission_noise;   // rgb radiance per metre at density 1, w noise amount 0..1

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "adapter/volumetrics_adapter.h"
 #include "engine/core/files.h"
 #include "engine/render/renderer.h"
 #include "support/gl_test.h"
@@ -24,9 +25,9 @@ class AcceptanceView : public GlTest {
         fog.sigma_s = glm::vec3(0.02F);
         builder_.scene.media.push_back(fog);
         options_.layer = "acceptance";
-        options_.volumetrics.temporal = Temporal::acceptance;
-        options_.volumetrics.temporal_weight = 0.5F;  // no more than the camera's travel leaves
-        options_.volumetrics.noise = Noise::none;
+        volumetrics_.settings.temporal = Temporal::acceptance;
+        volumetrics_.settings.temporal_weight = 0.5F;  // no more than the camera's travel leaves
+        volumetrics_.settings.noise = Noise::none;
         renderer_.prepare(builder_.finish());
     }
     Image draw() {
@@ -50,8 +51,9 @@ class AcceptanceView : public GlTest {
     glm::ivec2 size_{75, 50};
     float eye_x_ = 0;
     FrameOptions options_;
-    ShaderLibrary shaders_{data_root()};
-    Renderer renderer_{shaders_};
+    ShaderLibrary& shaders_ = shared_shaders();
+    VolumetricsAdapter volumetrics_;
+    Renderer renderer_{shaders_, {&volumetrics_}};
 };
 
 TEST_F(AcceptanceView, RedAtFirstGreenWhileNothingChangesRedBehindWhatMovedAway) {
@@ -69,16 +71,16 @@ TEST_F(AcceptanceView, RedAtFirstGreenWhileNothingChangesRedBehindWhatMovedAway)
 }
 
 TEST_F(AcceptanceView, BlackWithoutATemporalFilter) {
-    options_.volumetrics.temporal = Temporal::off;
+    volumetrics_.settings.temporal = Temporal::off;
     EXPECT_EQ(share(draw(), black), 1);
     const Image picture = renderer_.read_display();
-    options_.show_acceptance = true;
+    volumetrics_.show_acceptance = true;
     draw();
     EXPECT_EQ(renderer_.read_display().pixels, picture.pixels);
 }
 
 TEST_F(AcceptanceView, TheDisplayShowsTheLayer) {
-    options_.show_acceptance = true;
+    volumetrics_.show_acceptance = true;
     options_.more_layers = {"color"};
     draw();
     eye_x_ = 0.02F;
@@ -95,9 +97,9 @@ TEST_F(AcceptanceView, TheDisplayShowsTheLayer) {
 }
 
 TEST_F(AcceptanceView, OfALowerResolutionFillsTheFrame) {
-    options_.volumetrics.temporal_place = TemporalPlace::before;
+    volumetrics_.settings.temporal_place = TemporalPlace::before;
     for (const Resolution resolution : {Resolution::half, Resolution::quarter}) {
-        options_.volumetrics.resolution = resolution;
+        volumetrics_.settings.resolution = resolution;
         EXPECT_EQ(share(draw(), red), 1);
         const Image still = draw();
         EXPECT_EQ(still.size, size_);

@@ -9,6 +9,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "adapter/volumetrics_adapter.h"
 #include "engine/core/error.h"
 #include "engine/core/files.h"
 #include "engine/gl/readback.h"
@@ -104,7 +105,10 @@ class BadNumbers : public GlTest {
             FrameOptions options;
             options.layer = "scattering";
             options.more_layers = {"transmittance"};
-            options.volumetrics.froxels_x = options.volumetrics.froxels_y = options.volumetrics.froxels_z = 17;
+            volumetrics_.settings.froxels_x = volumetrics_.settings.froxels_y = volumetrics_.settings.froxels_z =
+                17;
+            volumetrics_.settings.sun_volume_size = 16;
+            volumetrics_.settings.lamp_volume_size = 8;
             options.render.cascade_size = options.render.static_shadow_size = 256;
             options.render.atlas_size = 512;
             renderer_.render(scene, view, {17, 9}, options);
@@ -119,8 +123,9 @@ class BadNumbers : public GlTest {
 
   private:
     fs::path folder_;
-    ShaderLibrary shaders_{data_root()};
-    Renderer renderer_{shaders_};
+    ShaderLibrary& shaders_ = shared_shaders();
+    VolumetricsAdapter volumetrics_;
+    Renderer renderer_{shaders_, {&volumetrics_}};
 };
 
 /// Every number in the parts of the scene that describe it.

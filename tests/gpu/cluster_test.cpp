@@ -68,7 +68,7 @@ class Cluster : public GlTest {
         frame_.view = view_.view;
         frame_.projection = view_.projection;
         frame_.viewport = {size, 1.0f / glm::vec2(size)};
-        lights_.update(scene, Frustum::from(view_.view_projection));
+        lights_.update(scene, find_lamps(scene, Frustum::from(view_.view_projection)));
         lights_.upload();
         set_cluster_grid(frame_, settings_, view_.znear, lights_.lights().size());
         FrameContext context{scene, gpu, view_, facts, settings_, shaders_, passes, frame_, size};
@@ -136,7 +136,7 @@ class Cluster : public GlTest {
     shared::FrameData frame_{};
     LightSet lights_;
     ClusterPass cluster_;
-    ShaderLibrary shaders_{data_root()};
+    ShaderLibrary& shaders_ = shared_shaders();
 };
 
 TEST_F(Cluster, EveryLampThatLightsAPointIsInItsListAndInOrder) {

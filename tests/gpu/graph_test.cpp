@@ -234,5 +234,35 @@ TEST_F(Graph, HistoryIsValidAfterAFrameAndInvalidAfterAChange) {
     EXPECT_FALSE(frame(larger));
 }
 
+TEST_F(Graph, AHistoryInTheListEndsItsFrameWhenItsPassesRan) {
+    History history;
+    const auto frame = [&](bool wanted) {
+        history.begin_frame(square, "taa");
+        PassList list;
+        auto [before, now] = list.import_history("taa", history);
+        EXPECT_EQ(static_cast<bool>(before), history.valid());
+        for (const char* name : {"draw", "more"})
+            list.add(
+                name,
+                [&](PassBuilder& b) {
+                    b.sample(before);
+                    now = b.storage_write(now);
+                },
+                [](const PassContext&) {});
+        if (wanted) list.export_texture(now);
+        list.compile();
+        const GLuint current = history.current().id();
+        list.execute(pool_);
+        return history.previous().id() == current;
+    };
+    EXPECT_TRUE(frame(true));
+    EXPECT_TRUE(history.valid());
+    EXPECT_TRUE(frame(true));
+    EXPECT_FALSE(frame(false)) << "culled: not drawn";
+    EXPECT_TRUE(frame(true));
+    history.begin_frame(square, "taa");
+    EXPECT_TRUE(history.valid());
+}
+
 }  // namespace
 }  // namespace tyndall

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "adapter/volumetrics_adapter.h"
 #include "engine/core/files.h"
 #include "engine/gl/readback.h"
 #include "engine/render/renderer.h"
@@ -30,7 +31,7 @@ class HalfFloat : public GlTest {
             medium.sigma_s = glm::vec3(0.01f);
             medium.emission = glm::vec3(most);
             medium.center = {0, 1, 0};
-            medium.radii = glm::vec3(3);
+            medium.half_extent = glm::vec3(3);
             builder_.scene.media.push_back(medium);
         }
         renderer_.prepare(builder_.finish());
@@ -44,15 +45,16 @@ class HalfFloat : public GlTest {
 
     test::SceneBuilder builder_;
     View view_ = look_at({0, 2, 6}, {0, 1.5f, 0}, 1.0f, 0.1f, 1.5f);
-    ShaderLibrary shaders_{data_root()};
-    Renderer renderer_{shaders_};
+    ShaderLibrary& shaders_ = shared_shaders();
+    VolumetricsAdapter volumetrics_;
+    Renderer renderer_{shaders_, {&volumetrics_}};
 };
 
 TEST_F(HalfFloat, NoTargetOverflowsAndTheLimitIsReached) {
     FrameOptions options;
     options.more_layers = {"scattering", "transmittance", "emissive"};
     for (const auto filter : {volumetrics::Filter::none, volumetrics::Filter::gaussian15}) {
-        options.volumetrics.filter = filter;
+        volumetrics_.settings.filter = filter;
         draw(options);
         for (const std::string& layer : options.more_layers) expect_finite(renderer_.read_layer(layer), layer);
         expect_finite(gl::read_texture(renderer_.color()), "color");
@@ -73,7 +75,7 @@ TEST_F(HalfFloat, NoTargetOverflowsAndTheLimitIsReached) {
 
 TEST_F(HalfFloat, WithoutAMediumSurfacesAndSkyStayFiniteToo) {
     FrameOptions options;
-    options.volumetrics.technique = volumetrics::Technique::off;
+    volumetrics_.settings.technique = "off";
     draw(options);
     expect_finite(gl::read_texture(renderer_.color()), "color");
 }

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "adapter/volumetrics_adapter.h"
 #include "engine/core/files.h"
 #include "engine/render/renderer.h"
 #include "support/gl_test.h"
@@ -52,8 +53,9 @@ class Lighting : public GlTest {
     test::SceneBuilder builder_;
     View view_ = look_at({0, 4, 1}, {0, 0, 0}, 1.0f, 0.1f, 1.0f);
     FrameOptions options_;
-    ShaderLibrary shaders_{data_root()};
-    Renderer renderer_{shaders_};
+    ShaderLibrary& shaders_ = shared_shaders();
+    VolumetricsAdapter volumetrics_;
+    Renderer renderer_{shaders_, {&volumetrics_}};
     static constexpr glm::dvec3 up{0, 1, 0};
 };
 
@@ -152,9 +154,9 @@ TEST_F(Lighting, AnAbsorbingMediumDimsBothLegs) {
     Medium medium;
     medium.sigma_a = glm::vec3(0.2f);
     builder_.scene.media.push_back(medium);
-    options_.volumetrics.filter = volumetrics::Filter::none;
+    volumetrics_.settings.filter = volumetrics::Filter::none;
     for (const bool first_leg : {true, false}) {
-        options_.volumetrics.light_transmittance = first_leg;
+        volumetrics_.settings.light_transmittance = first_leg;
         expect_ground(
             draw(),
             [&](glm::dvec3 p, glm::dvec3 v) {

@@ -7,6 +7,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <optional>
 
+#include "adapter/volumetrics_adapter.h"
 #include "engine/core/files.h"
 #include "engine/gl/readback.h"
 #include "engine/render/renderer.h"
@@ -43,7 +44,7 @@ class Motion : public GlTest {
         Medium fog;
         fog.sigma_s = glm::vec3(0.01F);
         builder_.scene.media.push_back(fog);
-        options_.volumetrics.temporal = Temporal::ema;
+        volumetrics_.settings.temporal = Temporal::ema;
         renderer_.prepare(builder_.finish());
     }
     void draw() {
@@ -89,8 +90,9 @@ class Motion : public GlTest {
     glm::ivec2 size_ = size;
     glm::dvec3 eye_{0, 0, 8};
     FrameOptions options_;
-    ShaderLibrary shaders_{data_root()};
-    Renderer renderer_{shaders_};
+    ShaderLibrary& shaders_ = shared_shaders();
+    VolumetricsAdapter volumetrics_;
+    Renderer renderer_{shaders_, {&volumetrics_}};
 };
 
 TEST_F(Motion, BoxMovesBesideABoxThatStands) {
@@ -179,17 +181,17 @@ TEST_F(Motion, IsThereOnlyWhereSomethingMovesAndItIsRead) {
     EXPECT_TRUE(moved_there({0, -50, 0}));
 
     for (const Temporal kept : {Temporal::ema, Temporal::acceptance, Temporal::accumulate}) {
-        options_.volumetrics.temporal = kept;
+        volumetrics_.settings.temporal = kept;
         EXPECT_TRUE(moved_there());
     }
     for (const Temporal none : {Temporal::off, Temporal::blend}) {
-        options_.volumetrics.temporal = none;
+        volumetrics_.settings.temporal = none;
         EXPECT_FALSE(moved_there());
     }
-    options_.volumetrics.temporal = Temporal::ema;
-    options_.volumetrics.technique = volumetrics::Technique::analytic_fog;
+    volumetrics_.settings.temporal = Temporal::ema;
+    volumetrics_.settings.technique = "analytic_fog";
     EXPECT_FALSE(moved_there()) << "nothing is sampled";
-    options_.volumetrics.technique = volumetrics::Technique::ray_march;
+    volumetrics_.settings.technique = "ray_march";
     EXPECT_TRUE(moved_there());
     builder_.scene.media.clear();
     EXPECT_FALSE(moved_there()) << "no medium";

@@ -50,7 +50,7 @@ class DepthPyramid : public GlTest {
         passes.execute(pool);
         return levels;
     }
-    ShaderLibrary shaders_{data_root()};
+    ShaderLibrary& shaders_ = shared_shaders();
 };
 
 TEST_F(DepthPyramid, EachTexelIsTheFarthestOfExactlyThePixelsThatMapToIt) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "adapter/volumetrics_adapter.h"
 #include "engine/core/error.h"
 #include "engine/core/files.h"
 #include "support/gl_test.h"
@@ -52,8 +53,9 @@ class RendererTest : public GlTest {
     glm::ivec2 size_{96, 64};
     View view_ = look_at({0, 2, 8}, {0, 1, 0}, 1.0f, 0.1f, 1.5f);
     FrameOptions options_;
-    ShaderLibrary shaders_{data_root()};
-    Renderer renderer_{shaders_};
+    ShaderLibrary& shaders_ = shared_shaders();
+    VolumetricsAdapter volumetrics_;
+    Renderer renderer_{shaders_, {&volumetrics_}};
     bool prepared_ = false;
 };
 
@@ -123,8 +125,8 @@ TEST_F(RendererTest, NoMediumIsBitIdenticalToVolumetricsOff) {
     draw();  // shadow maps and sky are drawn: what is left is a steady frame
     const Names with = live();
     const Image color = renderer_.read_layer(), shown = renderer_.read_display();
-    EXPECT_EQ(renderer_.volumetrics_bytes(), 0u);
-    options_.volumetrics.technique = volumetrics::Technique::off;
+    EXPECT_EQ(volumetrics_.persistent_bytes(), 0u);
+    volumetrics_.settings.technique = "off";
     medium(Medium::Shape::global);
     draw();
     EXPECT_EQ(live(), with);
@@ -189,7 +191,7 @@ TEST_F(RendererTest, LayersHoldWhatTheirNamesSay) {
     Medium absorbing;
     absorbing.sigma_a = glm::vec3(0.1f);
     builder_.scene.media.push_back(absorbing);
-    options_.volumetrics.filter = volumetrics::Filter::none;
+    volumetrics_.settings.filter = volumetrics::Filter::none;
     draw();
     const float distance = glm::length(glm::vec3(p));
     EXPECT_NEAR(renderer_.read_layer().at(ground_x, ground_y)[0], std::exp(-0.1f * distance), 0.003f);
@@ -232,6 +234,32 @@ TEST_F(RendererTest, TheSecondFrameIsTheFirst) {
     renderer_.invalidate_history();
     draw();
     EXPECT_EQ(renderer_.read_layer().pixels, first.pixels);
+}
+
+TEST_F(RendererTest, ACutForgetsHistoryAndKeepsLightVolumes) {
+    sun();
+    lamp();
+    medium(Medium::Shape::global);
+    medium(Medium::Shape::sphere);
+    volumetrics_.settings.temporal = volumetrics::Temporal::acceptance;
+    options_.layer = "acceptance";
+    const auto light_volumes = {"volumetrics/sun_volume", "volumetrics/lamp_volumes"};
+    const auto taken = [&] {  // of earlier frames, anywhere
+        const Image image = renderer_.read_layer();
+        float most = 0;
+        for (std::size_t i = 1; i < image.pixels.size(); i += 3) most = std::max(most, image.pixels[i]);
+        return most;
+    };
+    draw();
+    for (const char* pass : light_volumes) EXPECT_TRUE(runs(pass)) << pass;
+    EXPECT_EQ(taken(), 0);
+    draw();
+    EXPECT_GT(taken(), 0.5f);
+    renderer_.invalidate_history();
+    draw();
+    for (const char* pass : light_volumes)
+        EXPECT_EQ(reason(pass), "neither the local media nor the light changed") << pass;
+    EXPECT_EQ(taken(), 0);
 }
 
 TEST_F(RendererTest, CountsLightEvaluationsPerLamp) {

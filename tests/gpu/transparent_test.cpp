@@ -7,6 +7,7 @@
 #include <cmath>
 #include <memory>
 
+#include "adapter/volumetrics_adapter.h"
 #include "engine/core/files.h"
 #include "engine/render/renderer.h"
 #include "support/gl_test.h"
@@ -15,23 +16,12 @@
 namespace tyndall {
 namespace {
 
-using volumetrics::Technique;
-
 class Transparent : public GlTest {
   protected:
-    /// One for all: most of the time is the compiler's.
-    static ShaderLibrary& shaders() {
-        if (!shaders_) shaders_ = std::make_unique<ShaderLibrary>(data_root());
-        return *shaders_;
-    }
-    static void TearDownTestSuite() {
-        context().make_current();
-        shaders_.reset();
-    }
     Transparent() {
-        options_.volumetrics.froxels_x = 16;
-        options_.volumetrics.froxels_y = 16;
-        options_.volumetrics.technique = Technique::froxel;
+        volumetrics_.settings.froxels_x = 16;
+        volumetrics_.settings.froxels_y = 16;
+        volumetrics_.settings.technique = "froxel";
     }
     /// A Lambert surface, so that nothing but what a test says sends light.
     int material(glm::vec3 color, glm::vec3 emissive = glm::vec3(0)) {
@@ -75,7 +65,7 @@ class Transparent : public GlTest {
         m.sigma_a = 0.2f * sigma_s;
         m.anisotropy = 0.3f;
         m.center = center;
-        m.radii = glm::vec3(3);
+        m.half_extent = glm::vec3(3);
         m.height_profile = shape == Medium::Shape::height;
         m.falloff = 10;
         builder_.scene.media.push_back(m);
@@ -107,8 +97,8 @@ class Transparent : public GlTest {
     glm::ivec2 size_{17, 17};  // the middle of a pixel is the axis
     View view_ = look_at({0, 0, 0}, {0, 0, -1}, 0.8f, 0.1f, 1);
     FrameOptions options_;
-    Renderer renderer_{shaders()};
-    static inline std::unique_ptr<ShaderLibrary> shaders_;
+    VolumetricsAdapter volumetrics_;
+    Renderer renderer_{shared_shaders(), {&volumetrics_}};
 };
 
 class TransparentFog : public Transparent {
@@ -151,7 +141,7 @@ TEST_F(TransparentFog, IsThatOfAnOpaqueSurfaceAtTheSameDepth) {
 }
 
 TEST_F(TransparentFog, GoesOnBehindTheFroxels) {
-    options_.volumetrics.froxel_far = 10;
+    volumetrics_.settings.froxel_far = 10;
     const glm::dvec3 opaque = seen(Kind::opaque, 40, glm::vec3(0));
     for (const Kind kind : {Kind::glass, Kind::particle})
         expect_close(seen(kind, 40, glm::vec3(0)), opaque, 0.01, "kind " + std::to_string(int(kind)));
@@ -171,21 +161,21 @@ TEST_F(TransparentFog, HasClosedFormInAHomogeneousMedium) {
     const auto s = [&](double d) { return e / sigma * (1 - std::exp(-sigma * d)); };
     const auto t = [&](double d) { return std::exp(-sigma * d); };
     const double expected = s(8) + t(8) * (a * pane_light + (1 - a) * (s(far - 8) + t(far - 8) * wall));
-    for (const Technique technique : {Technique::froxel, Technique::reference}) {
-        options_.volumetrics.technique = technique;
-        expect_close(middle(), glm::dvec3(expected), 0.004, "technique " + std::to_string(int(technique)));
+    for (const char* technique : {"froxel", "reference"}) {
+        volumetrics_.settings.technique = technique;
+        expect_close(middle(), glm::dvec3(expected), 0.004, std::string("technique ") + technique);
     }
 }
 
 TEST_F(Transparent, BlendsByAlpha) {
-    options_.volumetrics.technique = Technique::off;
+    volumetrics_.settings.technique = "off";
     pane(20, material(glm::vec3(0), glm::vec3(100, 200, 300)));
     pane(5, glass(0.25f, glm::vec3(1), glm::vec3(800)));
     expect_close(middle(), {275, 350, 425}, 0.002, "0.25 * 800 + 0.75 * wall");
 }
 
 TEST_F(Transparent, OrderOfTheFileDoesNotMatter) {
-    options_.volumetrics.technique = Technique::off;
+    volumetrics_.settings.technique = "off";
     const std::vector<float> depths{3, 5, 7};
     const std::vector<glm::vec3> lights{{1000, 0, 0}, {0, 1000, 0}, {0, 0, 1000}};
     for (std::vector<int> order : {std::vector{0, 1, 2}, {2, 1, 0}, {1, 2, 0}}) {
@@ -200,7 +190,7 @@ TEST_F(Transparent, OrderOfTheFileDoesNotMatter) {
 }
 
 TEST_F(Transparent, HighlightsAreNotFadedByAlpha) {
-    options_.volumetrics.technique = Technique::off;
+    volumetrics_.settings.technique = "off";
     builder_.sun({0, 0, -1}, glm::vec3(3000));
     options_.render.ambient = 0;
     double highlight[2];
@@ -220,7 +210,7 @@ TEST_F(Transparent, HighlightsAreNotFadedByAlpha) {
 TEST_F(Transparent, AtAlphaOneIsLitAndShadowedAsAnOpaqueSurface) {
     size_ = {48, 48};
     view_ = look_at({0, 5, 7}, {0, 0, 0}, 1, 0.1f, 1);
-    options_.volumetrics.technique = Technique::off;
+    volumetrics_.settings.technique = "off";
     const auto picture = [&](bool blend) {
         builder_ = {};
         builder_.sun({-1, -2, -1}, glm::vec3(4000));
@@ -262,7 +252,7 @@ TEST_F(Transparent, SmokeIsAFunctionOfTime) {
 
 TEST_F(Transparent, LitParticlesScatterAlikeInAllDirections) {
     // The sun's E / (4 pi) times the colour, where the particle is opaque; half of it in a shadow's place: none.
-    options_.volumetrics.technique = Technique::off;
+    volumetrics_.settings.technique = "off";
     options_.render.ambient = 0;
     builder_.sun({0, -1, 0}, glm::vec3(5000));
     pane(20, material(glm::vec3(0)));
@@ -276,7 +266,7 @@ TEST_F(Transparent, LitParticlesScatterAlikeInAllDirections) {
 TEST_F(Transparent, NothingTransparentNoPass) {
     medium(Medium::Shape::global, glm::vec3(0.02f));
     pane(20, material(glm::vec3(0.5f)));
-    options_.volumetrics.technique = Technique::ray_march;
+    volumetrics_.settings.technique = "ray_march";
     draw();
     EXPECT_FALSE(runs("transparent"));
     EXPECT_EQ(reason("transparent"), "nothing transparent in view");
@@ -289,7 +279,7 @@ TEST_F(Transparent, NothingTransparentNoPass) {
     draw();
     for (const char* pass : {"transparent", "volumetrics/froxel_light", "volumetrics/march"})
         EXPECT_TRUE(runs(pass));
-    options_.volumetrics.technique = Technique::off;
+    volumetrics_.settings.technique = "off";
     draw();
     EXPECT_TRUE(runs("transparent"));
     EXPECT_FALSE(runs("volumetrics/froxel_light"));

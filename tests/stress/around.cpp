@@ -17,7 +17,7 @@ int filter_radius(volumetrics::Filter filter) {
 }
 
 int radius_of(const StressFrame& frame) {
-    const volumetrics::Settings& v = module_settings(frame.options);
+    const volumetrics::Settings& v = frame.options.volumetrics;
     switch (frame.feature) {
         case Feature::plain:
             break;
@@ -42,8 +42,8 @@ Image mean_of(const std::vector<Layers>& frames, Image Layers::*layer) {
 }  // namespace
 
 bool counts_all_frames(const StressFrame& frame) {
-    const volumetrics::Settings& v = module_settings(frame.options);
-    return frame.feature == Feature::history && technique_of(frame.options) != "froxel" &&
+    const volumetrics::Settings& v = frame.options.volumetrics;
+    return frame.feature == Feature::history && frame.options.volumetrics.technique != "froxel" &&
            v.temporal == volumetrics::Temporal::accumulate && !v.temporal_clip && !v.temporal_reject;
 }
 
@@ -55,7 +55,7 @@ Around around(const StressFrame& frame, const std::vector<Layers>& plain, Image 
     }
     const Image& first = plain.front().*layer;
     // A low pixel looks through the middle of its block; of local media each ray has noise of its own.
-    const double block = std::ranges::any_of(frame.media, is_local) ? 0.1 : 0.02;
+    const double block = std::ranges::any_of(frame.media, is_bounded) ? 0.1 : 0.02;
     Around range{radius_of(frame), frame.feature == Feature::low_resolution ? block : 2e-3, first, first};
     for (const Layers& layers : plain)
         for (std::size_t k = 0; k < first.pixels.size(); ++k) {

@@ -43,7 +43,7 @@ bool has_lamp(const Truth& truth) {
 }
 
 bool has_mixture(const Truth& truth) {
-    return std::ranges::count_if(truth.scene().media, [](const Medium& m) { return !is_local(m); }) > 1;
+    return std::ranges::count_if(truth.scene().media, [](const Medium& m) { return !is_bounded(m); }) > 1;
 }
 
 long heights(const Truth& truth) {
@@ -72,14 +72,14 @@ double slice_at(const volumetrics::Settings& settings, double depth) {
 }
 
 double marched(const StressFrame& frame, const Truth::Pixel& pixel) {
-    return std::min<double>(pixel.open.distance, module_settings(frame.options).max_distance);
+    return std::min<double>(pixel.open.distance, frame.options.volumetrics.max_distance);
 }
 
 /// The part of a ray within which a technique takes a lamp's medium, cone and range from four nodes, m.
 double node_span(const StressFrame& frame, const Truth::Pixel& pixel, double distance) {
-    const volumetrics::Settings& v = module_settings(frame.options);
+    const volumetrics::Settings& v = frame.options.volumetrics;
     const double length = marched(frame, pixel);
-    const std::string technique = technique_of(frame.options);
+    const std::string technique = frame.options.volumetrics.technique;
     if (technique == "froxel") return slice_at(v, distance * pixel.ray.view_cosine);
     if (technique == "shaft_geometry") return length / v.shaft_lamp_parts;
     return segment_at(v, length, distance);
@@ -105,7 +105,7 @@ double folds(const StressFrame& frame, const Truth& truth, const Truth::Pixel& p
     for (const Medium& medium : truth.scene().media)
         if (medium.shape == Medium::Shape::height)
             most = std::max(most, std::abs(pixel.ray.direction.y) / medium.falloff);
-    return most * segment_at(module_settings(frame.options), marched(frame, pixel), end);
+    return most * segment_at(frame.options.volumetrics, marched(frame, pixel), end);
 }
 
 double local_depth(const Truth& truth, const PixelRay& ray, double distance) {
@@ -115,7 +115,7 @@ double local_depth(const Truth& truth, const PixelRay& ray, double distance) {
 /// Of the optical depth of local media that are sampled once a slice of the froxels, and once a segment of the
 /// march where that takes light whole: half a slice at each end, and linear interpolation between columns.
 double quantisation(const StressFrame& frame, const Truth& truth, const Truth::Pixel& pixel) {
-    const volumetrics::Settings& v = module_settings(frame.options);
+    const volumetrics::Settings& v = frame.options.volumetrics;
     const double end = pixel.open.distance;
     double error = 0;
     for (const reference::MediumShape& shape : truth.local_media().shapes()) {
@@ -124,7 +124,7 @@ double quantisation(const StressFrame& frame, const Truth& truth, const Truth::P
         for (const double t : {path->inside.begin, path->inside.end}) {
             const double at = std::clamp(t, 0.0, end);
             double width = slice_at(v, at * pixel.ray.view_cosine);
-            if (technique_of(frame.options) == "ray_march" && !filters_shares(frame))
+            if (frame.options.volumetrics.technique == "ray_march" && !filters_shares(frame))
                 width += segment_at(v, marched(frame, pixel), at);
             error += 0.5 * width * largest(shape.sigma_t) * shape.greatest_density();
         }
@@ -166,7 +166,7 @@ std::optional<double> node_error(const StressFrame& frame, const Truth& truth, c
 }
 
 bool passes_near_lamp(const StressFrame& frame, const Truth& truth, const Truth::Pixel& pixel) {
-    const volumetrics::Settings& v = module_settings(frame.options);
+    const volumetrics::Settings& v = frame.options.volumetrics;
     for (const Light& light : truth.scene().lights) {
         if (light.type == LightType::sun || light.intensity == glm::vec3(0)) continue;
         const dvec3 place(truth.scene().nodes[static_cast<std::size_t>(light.node)].world[3]);
@@ -187,7 +187,7 @@ Bound transmittance_bound(const StressFrame& frame, const Truth& truth, const Tr
     constexpr double half = 1e-3;  // rounding, and Beer-Lambert as the module's README states it
     const double local = local_depth(truth, pixel.ray, pixel.open.distance);
     if (local == 0) return {half, half};
-    const std::string technique = technique_of(frame.options);
+    const std::string technique = frame.options.volumetrics.technique;
     if (technique == "ray_march" || technique == "froxel") {
         const double quantised = quantisation(frame, truth, pixel);
         if (quantised > 0.02) return left_out(fault_slices);
@@ -200,8 +200,8 @@ Bound transmittance_bound(const StressFrame& frame, const Truth& truth, const Tr
 }
 
 Bound scattering_bound(const StressFrame& frame, const Truth& truth, const Truth::Pixel& pixel) {
-    const volumetrics::Settings& v = module_settings(frame.options);
-    const std::string technique = technique_of(frame.options);
+    const volumetrics::Settings& v = frame.options.volumetrics;
+    const std::string technique = frame.options.volumetrics.technique;
     const bool lamps = has_lamp(truth), mixture = has_mixture(truth);
     const double local = local_depth(truth, pixel.ray, pixel.open.distance);
     Bound bound{4e-3, 2e-3};
@@ -241,23 +241,23 @@ Bound scattering_bound(const StressFrame& frame, const Truth& truth, const Truth
 }
 
 double shadow_bound(const StressFrame& frame) {
-    return std::ranges::any_of(frame.media, is_local) ? 0.1 : 0.02;
+    return std::ranges::any_of(frame.media, is_bounded) ? 0.1 : 0.02;
 }
 
 std::string differs_from_plain(const StressFrame& frame, bool shadows) {
-    const volumetrics::Settings& v = module_settings(frame.options);
+    const volumetrics::Settings& v = frame.options.volumetrics;
     const bool history = frame.feature == Feature::history;
-    if (technique_of(frame.options) == "radial_shafts" && (frame.world != World::nothing || v.radial_unseen < 1))
+    if (frame.options.volumetrics.technique == "radial_shafts" && (frame.world != World::nothing || v.radial_unseen < 1))
         return limit_screen;
-    if (technique_of(frame.options) == "froxel" && frame.feature == Feature::low_resolution &&
+    if (frame.options.volumetrics.technique == "froxel" && frame.feature == Feature::low_resolution &&
         v.resolution_depth != volumetrics::DepthChoice::min && frame.world != World::nothing)
         return fault_low_froxels;
-    if (technique_of(frame.options) == "particles" && history)
+    if (frame.options.volumetrics.technique == "particles" && history)
         return "limit: without a history particles stand still, so that it is no mean of plain frames";
-    if (technique_of(frame.options) == "froxel" && history && shadows)
+    if (frame.options.volumetrics.technique == "froxel" && history && shadows)
         return "limit: the history of froxels samples visibility beside the ray, too";
     if (!filters_shares(frame)) return "";
-    if (technique_of(frame.options) == "ray_march" && std::ranges::any_of(frame.media, is_local))
+    if (frame.options.volumetrics.technique == "ray_march" && std::ranges::any_of(frame.media, is_bounded))
         return "limit: apart from visibility, local media are sampled without noise";
     if (shadows && !counts_all_frames(frame))
         return "limit: a share of a pixel's own light is no mean of the light around";
@@ -265,18 +265,18 @@ std::string differs_from_plain(const StressFrame& frame, bool shadows) {
 }
 
 bool filters_shares(const StressFrame& frame) {
-    const volumetrics::Settings& v = module_settings(frame.options);
+    const volumetrics::Settings& v = frame.options.volumetrics;
     if (frame.feature != Feature::filter && frame.feature != Feature::history) return false;
     if (frame.feature == Feature::history && v.temporal_place == volumetrics::TemporalPlace::after) return false;
-    if (technique_of(frame.options) == "radial_shafts") return true;
+    if (frame.options.volumetrics.technique == "radial_shafts") return true;
     if (v.reconstruct == volumetrics::Reconstruct::light) return false;
-    const bool local = std::ranges::any_of(frame.media, is_local);
+    const bool local = std::ranges::any_of(frame.media, is_bounded);
     const bool coloured = std::ranges::any_of(frame.media, [](const Medium& medium) {
         const glm::vec3 t = medium.sigma_s + medium.sigma_a;
         return medium.rayleigh || t != glm::vec3(t.x);
     });
-    return technique_of(frame.options) == "shaft_geometry" ||
-           (technique_of(frame.options) == "ray_march" && !(local && coloured));
+    return frame.options.volumetrics.technique == "shaft_geometry" ||
+           (frame.options.volumetrics.technique == "ray_march" && !(local && coloured));
 }
 
 }  // namespace tyndall::stress

@@ -26,7 +26,7 @@ double mean_of(const Image& image) {
 
 /// "scattering, local media".
 std::string what(const std::string& layer, const StressFrame& frame) {
-    const bool local = std::ranges::any_of(frame.media, is_local) && knows(technique_of(frame.options)).local;
+    const bool local = std::ranges::any_of(frame.media, is_bounded) && knows(frame.options.volumetrics.technique).local;
     return layer + (local ? ", local media" : "");
 }
 
@@ -88,7 +88,7 @@ void compare_with_truth(const StressFrame& frame, const Truth& truth, const Laye
             light += pixel.open.scattering[c];
         }
     }
-    const std::string technique = technique_of(frame.options);
+    const std::string technique = frame.options.volumetrics.technique;
     transmittance.report(technique, what("transmittance", frame), tally, findings);
     open.report(technique, what("scattering", frame), tally, findings);
     if (shadow_pixels == 0 || light == 0) return;
@@ -115,7 +115,7 @@ void compare_mean_transmittance(const StressFrame& frame, const Truth& truth, co
     double worst = 0;
     for (int c = 0; c < 3; ++c)
         worst = std::max(worst, std::abs(value[c] - right[c]) / (0.01 * pixels + 0.1 * (pixels - right[c])));
-    tally.add(technique_of(frame.options), what("mean transmittance", frame), pixels, worst);
+    tally.add(frame.options.volumetrics.technique, what("mean transmittance", frame), pixels, worst);
     if (worst > 1)
         findings.push_back(fmt::format(
             "mean transmittance is {:.3f} {:.3f} {:.3f}, the ground truth {:.3f} {:.3f} {:.3f}", value.x / pixels,
@@ -136,19 +136,21 @@ void compare_with_plain(const StressFrame& frame, const std::vector<Layers>& pla
         said = fmt::format("{} of {} at {}", layer == &Layers::scattering ? "scattering" : "transmittance", name,
                            where);
     }
-    tally.add(technique_of(frame.options), what(name, frame), layers.depth.size.x * layers.depth.size.y, worst);
+    tally.add(frame.options.volumetrics.technique, what(name, frame), layers.depth.size.x * layers.depth.size.y, worst);
     if (worst > 1) findings.push_back(said);
 }
 
 }  // namespace
 
-std::vector<Layers> Compare::draw(const StressFrame& frame, const Scene& scene, const FrameOptions& options,
+std::vector<Layers> Compare::draw(const StressFrame& frame, const Scene& scene, const StressOptions& options,
                                   int frames) {
-    Renderer& renderer = *worlds_[frame.world].renderer;
+    Worlds::Place& place = worlds_[frame.world];
+    Renderer& renderer = *place.renderer;
+    place.volumetrics->settings = options.volumetrics;
     renderer.invalidate_history();
     std::vector<Layers> all;
     for (int i = 0; i < frames; ++i) {
-        FrameOptions next = options;
+        StressOptions next = options;
         next.frame_index += static_cast<std::uint32_t>(i);
         renderer.render(scene, frame.view, frame.size, next);
         all.push_back(read_layers(renderer));
@@ -164,9 +166,9 @@ void Compare::check(const StressFrame& frame, Random random, Findings& findings)
     const std::vector<Layers> plain_frames = draw(frame, scene, plain(frame.options), frames);
     const std::vector<Layers> drawn = featured ? draw(frame, scene, frame.options, frames) : plain_frames;
     const Truth truth(frame, scene);
-    const bool exact = filters_shares(frame) || (history && technique_of(frame.options) == "froxel");
+    const bool exact = filters_shares(frame) || (history && frame.options.volumetrics.technique == "froxel");
     compare_with_truth(frame, truth, exact ? drawn.back() : plain_frames.back(), random, tally, findings);
-    if (technique_of(frame.options) == "particles")
+    if (frame.options.volumetrics.technique == "particles")
         compare_mean_transmittance(frame, truth, plain_frames.back(), tally, findings);
     if (!featured) return;
     const std::string rule = differs_from_plain(frame, truth.has_shadows());
@@ -196,7 +198,7 @@ void Compare::check_doubled(const StressFrame& frame, Findings& findings) {
         worst.add("twice the light", at, twice.scattering.at(at.x, at.y), 2.0 * dvec3(value[0], value[1], value[2]),
                   {1e-3, 0}, 1e-3 * mean + 1e-4);
     }
-    worst.report(technique_of(frame.options), what("doubled light", frame), tally, findings);
+    worst.report(frame.options.volumetrics.technique, what("doubled light", frame), tally, findings);
 }
 
 }  // namespace tyndall::stress

@@ -19,7 +19,7 @@ class Compare {
 
   private:
     [[nodiscard]] std::vector<Layers> draw(const StressFrame& frame, const Scene& scene,
-                                           const FrameOptions& options, int frames);
+                                           const StressOptions& options, int frames);
     Worlds worlds_;
 };
 

@@ -23,15 +23,13 @@ std::string text(const StressFrame::Lamp& lamp) {
 }
 
 std::string text(const Medium& medium) {
-    static constexpr const char* shapes[] = {"global", "height", "sphere", "ellipsoid", "box", "grid"};
     std::string line =
-        fmt::format("  {} scattering {} absorption {} g {:.7g} emission {}", shapes[static_cast<int>(medium.shape)],
+        fmt::format("  {} scattering {} absorption {} g {:.7g} emission {}", name_of(medium.shape),
                     text(medium.sigma_s), text(medium.sigma_a), medium.anisotropy, text(medium.emission));
     if (medium.height_profile) line += fmt::format(" base {:.7g} falloff {:.7g}", medium.base, medium.falloff);
-    if (is_local(medium))
-        line += fmt::format(" at {} radii {} size {} softness {:.7g} noise {:.7g} of {:.7g} m", text(medium.center),
-                            text(medium.radii), text(medium.size), medium.softness, medium.noise_amount,
-                            medium.noise_scale);
+    if (is_bounded(medium))
+        line += fmt::format(" at {} half extent {} softness {:.7g} noise {:.7g} of {:.7g} m", text(medium.center),
+                            text(medium.half_extent), medium.softness, medium.noise_amount, medium.noise_scale);
     return line + "\n";
 }
 
@@ -46,9 +44,9 @@ std::string describe(const StressFrame& frame) {
                                   text(forward), glm::degrees(view.yfov), view.znear);
     for (const auto& light : frame.lights) all += text(light);
     for (const Medium& medium : frame.media) all += text(medium);
-    FrameOptions options = frame.options;
+    StressOptions options = frame.options;
     SettingsSet settings;
-    settings.add(volumetrics::settings_table(), &module_settings(options));
+    settings.add(volumetrics::settings_table(), &options.volumetrics);
     settings.add(render_settings_table(), &options.render);
     return all + "  " + settings.to_json().dump() + "\n";
 }

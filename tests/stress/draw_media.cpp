@@ -55,14 +55,14 @@ Medium draw_extreme_local(bool first, const StressFrame& frame, const Structure&
     medium.shape = random.pick({Medium::Shape::sphere, Medium::Shape::ellipsoid, Medium::Shape::box});
     draw_coefficients(medium, first, structure.local_emission, structure, random);
     medium.center = random.chance(0.2) ? frame.view.eye : origin + random.box(20);
-    medium.radii = glm::vec3(draw_length(random));
-    medium.size = glm::vec3{draw_length(random), draw_length(random), draw_length(random)};
-    if (medium.shape == Medium::Shape::ellipsoid) medium.radii = medium.size;
+    const float radius = draw_length(random);
+    const glm::vec3 extent{draw_length(random), draw_length(random), draw_length(random)};
+    medium.half_extent = medium.shape == Medium::Shape::sphere ? glm::vec3(radius) : extent;
     if (first) {  // in view
         medium.center = before_camera(frame.view, logarithmic(random, 1, 10));
-        medium.radii = glm::abs(medium.radii) + 0.1f;
-        medium.size = glm::abs(medium.size) + 0.1f;
+        medium.half_extent = glm::abs(medium.half_extent) + 0.1f;
     }
+    if (medium.shape == Medium::Shape::box) medium.half_extent *= 0.5f;
     medium.rotation =
         glm::angleAxis(static_cast<float>(random.linear(0, 2 * std::numbers::pi)), random.direction());
     medium.softness = random.chance(0.4) ? 0 : usual_or(random, 0.1, 5, 1e-4, 1e4);
@@ -89,9 +89,9 @@ Medium draw_comparable_local(bool first, const StressFrame& frame, const Structu
     medium.center = random.chance(0.2) ? frame.view.eye : before_camera(frame.view, logarithmic(random, 2, 15));
     if (!first) medium.center = origin + random.box(8);
     const auto length = [&] { return logarithmic(random, 1, 6); };
-    medium.radii = glm::vec3(length());
-    medium.size = glm::vec3{length(), length(), length()};
-    if (medium.shape == Medium::Shape::ellipsoid) medium.radii = medium.size;
+    medium.half_extent = medium.shape == Medium::Shape::sphere ? glm::vec3(length())
+                                                               : glm::vec3{length(), length(), length()};
+    if (medium.shape == Medium::Shape::box) medium.half_extent *= 0.5f;
     medium.rotation =
         glm::angleAxis(static_cast<float>(random.linear(0, 2 * std::numbers::pi)), random.direction());
     medium.softness = random.chance(0.5) ? 0 : logarithmic(random, 0.3, 2);
@@ -113,10 +113,6 @@ Medium draw_local(bool first, const StressFrame& frame, const Structure& structu
 }
 
 }  // namespace
-
-bool is_local(const Medium& medium) {
-    return medium.shape != Medium::Shape::global && medium.shape != Medium::Shape::height;
-}
 
 void draw_media(StressFrame& frame, const Structure& structure, glm::vec3 origin, Random& random) {
     const int most = structure.comparable ? 2 : random.chance(0.05) ? 40 : 4;

@@ -18,7 +18,7 @@ struct Structure {
     int heights = 0;
     bool local = false, local_emission = false;
     bool chromatic = false;
-    FrameOptions options;
+    StressOptions options;
 };
 
 /// Camera, objects, lights and media. The sun comes from `of_sequence`: a new one costs a new sky.
@@ -28,7 +28,6 @@ void draw_world(StressFrame& frame, const Structure& structure, Random& of_seque
 [[nodiscard]] StressFrame::Lamp draw_sun(const Structure& structure, Random& random);
 void draw_lamps(StressFrame& frame, const Structure& structure, glm::vec3 origin, Random& random);
 void draw_media(StressFrame& frame, const Structure& structure, glm::vec3 origin, Random& random);
-[[nodiscard]] bool is_local(const Medium& medium);
 
 [[nodiscard]] float logarithmic(Random& random, double low, double high);
 /// Half of the time something usual, else anything: a frame in which all is extreme shows nothing.

@@ -36,9 +36,9 @@ Structure draw_structure(int index, Random& random) {
     s.chromatic = random.chance(0.5);
     if (!s.homogeneous && s.heights == 0 && !s.local && random.chance(0.9)) s.homogeneous = true;
     draw_settings(render_settings_table(), &s.options.render, SettingEffect::permutation, random);
-    draw_settings(volumetrics::settings_table(), &module_settings(s.options), SettingEffect::permutation, random);
+    draw_settings(volumetrics::settings_table(), &s.options.volumetrics, SettingEffect::permutation, random);
     // The march is what extremes are about; a technique that the table gets later is drawn now and then.
-    if (random.chance(0.7)) set_technique(s.options, "ray_march");
+    if (random.chance(0.7)) s.options.volumetrics.technique = "ray_march";
     if (index % 2 == 1) moderate_structure(s, index / 2, random);
     return s;
 }
@@ -72,8 +72,8 @@ glm::ivec2 draw_size(SizeKind kind, Random& random) {
 
 /// Lowers steps, then the size, until the frame is cheap.
 void limit_work(StressFrame& frame) {
-    volumetrics::Settings& v = module_settings(frame.options);
-    if (technique_of(frame.options) == "reference") {
+    volumetrics::Settings& v = frame.options.volumetrics;
+    if (frame.options.volumetrics.technique == "reference") {
         frame.size = glm::min(frame.size, glm::ivec2(9));
         v.reference_steps = std::min(v.reference_steps, 512);
         if (!frame.comparable) v.reference_light_steps = std::min(v.reference_light_steps, 4);
@@ -104,7 +104,7 @@ StressFrame make_frame(std::uint64_t seed, int number) {
     for (const SettingEffect effect : {SettingEffect::resource, SettingEffect::uniform}) {
         Random& from = effect == SettingEffect::resource ? of_sequence : random;
         draw_settings(render_settings_table(), &frame.options.render, effect, from);
-        draw_settings(volumetrics::settings_table(), &module_settings(frame.options), effect, from);
+        draw_settings(volumetrics::settings_table(), &frame.options.volumetrics, effect, from);
     }
     // The ground truth of a sky takes long to set up: once a sequence.
     if (structure.comparable && number % sequence_length != 0) frame.options.render.ambient = 0;

@@ -14,16 +14,9 @@ constexpr int sequence_length = 4;
 /// What stands between the samples of a comparable frame and its picture; plain: nothing.
 enum class Feature { plain, filter, history, low_resolution };
 
-/// The module's settings of a frame.
-inline volumetrics::Settings& module_settings(FrameOptions& options) {
-    return options.volumetrics;
-}
-inline const volumetrics::Settings& module_settings(const FrameOptions& options) {
-    return options.volumetrics;
-}
-
-[[nodiscard]] std::string technique_of(const FrameOptions& options);
-void set_technique(FrameOptions& options, const std::string& name);
+struct StressOptions : FrameOptions {
+    volumetrics::Settings volumetrics;
+};
 
 /// One frame: a pure function of seed and number.
 struct StressFrame {
@@ -38,7 +31,7 @@ struct StressFrame {
     float exposure_ev100 = 0;
     View view;
     glm::ivec2 size{1};
-    FrameOptions options;
+    StressOptions options;
     bool cut = false;         ///< a camera jump that the renderer is told of
     bool comparable = false;  ///< within what a truth follows: see moderate.h
     Feature feature = Feature::plain;

@@ -39,7 +39,7 @@ Knows knows(const std::string& technique) {
 
 void moderate_structure(Structure& s, int turn, Random& random) {
     const Turn& t = turns[static_cast<std::size_t>(turn)];
-    volumetrics::Settings& v = module_settings(s.options);
+    volumetrics::Settings& v = s.options.volumetrics;
     s.comparable = true;
     s.size = SizeKind::thumbnail;
     s.local = t.local;
@@ -48,12 +48,12 @@ void moderate_structure(Structure& s, int turn, Random& random) {
     if (!s.sun && !s.lamps) (random.chance(0.5) ? s.sun : s.lamps) = true;
     if (!knows(t.technique).lamps) s.sun = true;
     if (!s.homogeneous && s.heights == 0 && (!t.local || random.chance(0.5))) s.heights = 1;
-    set_technique(s.options, t.technique);
+    s.options.volumetrics.technique = t.technique;
     v.lamp_integration = volumetrics::LampIntegration::segment;
 }
 
 void moderate_visit(Structure& s, int visit) {
-    const std::string technique = technique_of(s.options);
+    const std::string technique = s.options.volumetrics.technique;
     const bool sprites = technique == "billboards" || technique == "particles";
     if (!(sprites || technique == "froxel") || visit / 2 % 2 == 1) return;
     s.local = false;
@@ -65,10 +65,10 @@ void moderate_visit(Structure& s, int visit) {
 }
 
 void moderate_frame(StressFrame& frame, int visit, Random& of_sequence, Random& random) {
-    volumetrics::Settings& v = module_settings(frame.options);
-    const std::vector<Feature> all = features(technique_of(frame.options));
+    volumetrics::Settings& v = frame.options.volumetrics;
+    const std::vector<Feature> all = features(frame.options.volumetrics.technique);
     frame.feature = all[static_cast<std::size_t>(visit) % all.size()];
-    const bool local = std::ranges::any_of(frame.media, [](const Medium& medium) { return is_local(medium); });
+    const bool local = std::ranges::any_of(frame.media, is_bounded);
 
     v.steps = static_cast<int>(random.logarithmic(local ? 64 : 24, 128));
     v.max_distance = static_cast<float>(random.logarithmic(90, local ? 120 : 400));
@@ -76,7 +76,7 @@ void moderate_frame(StressFrame& frame, int visit, Random& of_sequence, Random& 
     v.froxel_distribution =
         of_sequence.pick({volumetrics::DepthDistribution::linear, volumetrics::DepthDistribution::exponential,
                           volumetrics::DepthDistribution::logarithmic});
-    const bool lit = technique_of(frame.options) == "froxel";
+    const bool lit = frame.options.volumetrics.technique == "froxel";
     v.froxels_x = v.froxels_y = lit ? 31 : 17;
     v.froxels_z = lit ? 95 : 191;
     v.froxel_far = lit ? 100.0f : 40.0f;
@@ -122,8 +122,8 @@ void moderate_frame(StressFrame& frame, int visit, Random& of_sequence, Random& 
     r.tile_size_max = 512;
 }
 
-FrameOptions plain(FrameOptions options) {
-    volumetrics::Settings& v = module_settings(options);
+StressOptions plain(StressOptions options) {
+    volumetrics::Settings& v = options.volumetrics;
     v.filter = volumetrics::Filter::none;
     v.temporal = volumetrics::Temporal::off;
     v.resolution = volumetrics::Resolution::full;

@@ -21,6 +21,6 @@ void moderate_visit(Structure& structure, int visit);
 void moderate_frame(StressFrame& frame, int visit, Random& of_sequence, Random& random);
 
 /// The same frame with nothing between samples and picture.
-[[nodiscard]] FrameOptions plain(FrameOptions options);
+[[nodiscard]] StressOptions plain(StressOptions options);
 
 }  // namespace tyndall::stress

@@ -13,9 +13,7 @@ namespace {
 
 /// Where along a ray the media are sampled depends on where it ends: only closed forms are monotonic for certain.
 bool has_monotonic_transmittance(const StressFrame& frame) {
-    return std::ranges::all_of(frame.media, [](const Medium& medium) {
-        return medium.shape == Medium::Shape::global || medium.shape == Medium::Shape::height;
-    });
+    return std::ranges::none_of(frame.media, is_bounded);
 }
 
 bool has_surface(const Image& depth) {
@@ -27,7 +25,8 @@ bool has_surface(const Image& depth) {
 Run::Run(std::uint64_t seed) : seed_(seed), shaders_(data_root()), worlds_(shaders_), compare_(shaders_) {}
 
 Layers Run::render(const StressFrame& frame, World world) {
-    auto& [scene, renderer] = worlds_[world];
+    auto& [scene, volumetrics, renderer] = worlds_[world];
+    volumetrics->settings = frame.options.volumetrics;
     const Scene posed = pose_scene(scene, frame);
     renderer->render(posed, frame.view, frame.size, frame.options);
     return read_layers(*renderer);
@@ -46,16 +45,16 @@ Findings Run::check(int number) {
         if (frame.cut) worlds_[frame.world].renderer->invalidate_history();
         const Layers layers = render(frame, frame.world);
         // The technique reference keeps its layers in single precision.
-        const bool single = technique_of(frame.options) == "reference";
+        const bool single = frame.options.volumetrics.technique == "reference";
         check_values(layers, single ? std::numeric_limits<float>::max() : half_max, findings);
         if (frame.comparable) compare_.check(frame, Random{seed_, 4, static_cast<std::uint64_t>(number)}, findings);
         if (number % sequence_length == 1) compare_.check_doubled(frame, findings);
-        const volumetrics::Settings& v = module_settings(frame.options);
+        const volumetrics::Settings& v = frame.options.volumetrics;
         const bool of_own_ray = v.filter == volumetrics::Filter::none && v.temporal == volumetrics::Temporal::off &&
                                 v.resolution == volumetrics::Resolution::full;
         if (of_own_ray && has_surface(layers.depth) && has_monotonic_transmittance(frame)) {
             const Layers sky = render(frame, World::nothing);
-            totals.depth_pixels += check_monotonic(layers, sky, module_settings(frame.options).steps, findings);
+            totals.depth_pixels += check_monotonic(layers, sky, frame.options.volumetrics.steps, findings);
         }
     } catch (const Error& error) {
         findings.push_back(error.what());

@@ -36,18 +36,8 @@ void draw_settings(const SettingsTable& table, void* object, SettingEffect effec
         if (setting.effect == effect) setting.set(object, draw(setting, random.fork(setting.key)));
 }
 
-std::string technique_of(const FrameOptions& options) {
-    return volumetrics::technique_names()[static_cast<std::size_t>(module_settings(options).technique)];
-}
-
-void set_technique(FrameOptions& options, const std::string& name) {
-    const auto& names = volumetrics::technique_names();
-    module_settings(options).technique =
-        static_cast<volumetrics::Technique>(std::ranges::find(names, name) - names.begin());
-}
-
-void limit_resources(FrameOptions& options) {
-    volumetrics::Settings& v = module_settings(options);
+void limit_resources(StressOptions& options) {
+    volumetrics::Settings& v = options.volumetrics;
     halve_until(v.froxels_x, v.froxels_y, v.froxels_z, 100'000);
     for (int* side : {&v.froxels_x, &v.froxels_y, &v.froxels_z}) *side |= 1;  // see odd() in frame.cpp
     const auto at_most = [](int& value, int most) { value = std::min(value, most); };

@@ -10,6 +10,6 @@ namespace tyndall::stress {
 void draw_settings(const SettingsTable& table, void* object, SettingEffect effect, const Random& random);
 
 /// Lowers what would take seconds: froxels, clusters.
-void limit_resources(FrameOptions& options);
+void limit_resources(StressOptions& options);
 
 }  // namespace tyndall::stress

@@ -11,7 +11,7 @@ namespace tyndall::stress {
 namespace {
 
 Scene as_known(Scene scene, const Knows& known) {
-    if (!known.local) std::erase_if(scene.media, is_local);
+    if (!known.local) std::erase_if(scene.media, is_bounded);
     if (!known.lamps)
         for (Light& light : scene.lights)
             if (light.type != LightType::sun) light.intensity = glm::vec3(0);
@@ -19,7 +19,7 @@ Scene as_known(Scene scene, const Knows& known) {
 }
 
 std::vector<Medium> local_of(std::vector<Medium> media) {
-    std::erase_if(media, [](const Medium& medium) { return !is_local(medium); });
+    std::erase_if(media, [](const Medium& medium) { return !is_bounded(medium); });
     return media;
 }
 
@@ -41,10 +41,10 @@ PixelRay pixel_ray(const View& view, glm::dvec2 size, glm::dvec2 pixel) {
 
 Truth::Truth(const StressFrame& frame, Scene scene)
     : frame_(frame),
-      scene_(as_known(std::move(scene), knows(technique_of(frame.options)))),
+      scene_(as_known(std::move(scene), knows(frame.options.volumetrics.technique))),
       media_(scene_.media),
       local_(local_of(scene_.media)) {
-    const auto& chosen = module_settings(frame.options);
+    const auto& chosen = frame.options.volumetrics;
     reference::Settings settings{.light_transmittance = chosen.light_transmittance,
                                  .phase = {.kind = static_cast<reference::ParticlePhase::Kind>(chosen.phase),
                                            .back_anisotropy = chosen.phase_back_anisotropy,
@@ -55,7 +55,7 @@ Truth::Truth(const StressFrame& frame, Scene scene)
                                  .black_sky = true,
                                  .tolerance = 1e-4};
     open_ = std::make_unique<reference::Reference>(scene_, settings);
-    if (!frame.options.render.shadows || !knows(technique_of(frame.options)).shadow_maps || !casts_shadows(scene_))
+    if (!frame.options.render.shadows || !knows(frame.options.volumetrics.technique).shadow_maps || !casts_shadows(scene_))
         return;
     settings.shadows = true;
     shadowed_ = std::make_unique<reference::Reference>(scene_, settings);
@@ -67,9 +67,9 @@ bool Truth::is_homogeneous() const {
 
 // In a homogeneous medium light is source / sigma_t (1 - T), whatever T.
 void Truth::apply_fog_mode(reference::Reference::Ray& ray) const {
-    const volumetrics::Settings& v = module_settings(frame_.options);
+    const volumetrics::Settings& v = frame_.options.volumetrics;
     using enum volumetrics::FogMode;
-    if (technique_of(frame_.options) != "analytic_fog" || v.fog_mode == height) return;
+    if (frame_.options.volumetrics.technique != "analytic_fog" || v.fog_mode == height) return;
     const dvec3 sigma_t = media_.at(dvec3(frame_.view.eye)).sigma_t;
     for (int c = 0; c < 3; ++c) {
         if (sigma_t[c] == 0) continue;

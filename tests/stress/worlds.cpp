@@ -31,7 +31,8 @@ Worlds::Worlds(ShaderLibrary& shaders) : shaders_(shaders) {
 Worlds::Place& Worlds::operator[](World world) {
     Place& place = places_[static_cast<std::size_t>(world)];
     if (!place.renderer) {
-        place.renderer = std::make_unique<Renderer>(shaders_);
+        place.volumetrics = std::make_unique<VolumetricsAdapter>();
+        place.renderer = std::make_unique<Renderer>(shaders_, std::vector<FrameModule*>{place.volumetrics.get()});
         place.renderer->prepare(place.scene, 1);
     }
     return place;

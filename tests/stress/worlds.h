@@ -3,6 +3,7 @@
 #include <array>
 #include <memory>
 
+#include "adapter/volumetrics_adapter.h"
 #include "engine/render/renderer.h"
 
 namespace tyndall::stress {
@@ -18,6 +19,7 @@ class Worlds {
     explicit Worlds(ShaderLibrary& shaders);
     struct Place {
         Scene scene;  ///< without lights, media and cameras
+        std::unique_ptr<VolumetricsAdapter> volumetrics;
         std::unique_ptr<Renderer> renderer;
     };
     [[nodiscard]] Place& operator[](World world);

@@ -13,7 +13,9 @@ struct GBuffer {
     TextureRef material;  ///< RGBA8 roughness, metallic, occlusion
     TextureRef emissive;  ///< RGBA16F cd/m²
     TextureRef depth;     ///< D32F reversed-Z; 0 is sky
-    TextureRef motion;    ///< empty, or RG16F: volumetrics::Inputs::motion; 0 on the sky
+    /// RG16F, or empty. Of the surface seen: its place on the screen now less that in the frame before, 0..1 of the
+    /// picture, the camera's motion included; beyond -1..1 it was not in the picture; 0 on the sky.
+    TextureRef motion;
 };
 
 /// Draws what the view sees of the scene's opaque and alpha-masked surfaces.

@@ -26,14 +26,16 @@ const ProgramDesc program{
 const ProgramRegistry::Registration registration(program);
 
 Permutation permutation(const FrameContext& frame, const LightSources& sources) {
+    Permutation defines = sources.defines;
     const bool lamps = frame.facts.local_lights_in_view > 0, lights = frame.facts.has_sun || lamps;
-    return {{"HAS_SUN", frame.facts.has_sun},
-            {"HAS_LAMPS", lamps},
-            {"HAS_AMBIENT", frame.facts.has_ambient},
-            {"SHADOWS", frame.settings.shadows && lights},
-            {"MEDIUM_TRANSMITTANCE", sources.medium_transmittance && lights},
-            {"LIGHT_VOLUMES", sources.light_volumes},
-            {"COUNT_WORK", frame.count_work}};
+    defines.merge(Permutation{{"HAS_SUN", frame.facts.has_sun},
+                              {"HAS_LAMPS", lamps},
+                              {"HAS_AMBIENT", frame.facts.has_ambient},
+                              {"SHADOWS", frame.settings.shadows && lights},
+                              {"MEDIUM_TRANSMITTANCE", 0},
+                              {"LIGHT_VOLUMES", 0},
+                              {"COUNT_WORK", frame.count_work}});
+    return defines;
 }
 
 }  // namespace

@@ -15,8 +15,8 @@ struct LightSources {
         textures;                    ///< shadow maps and the ambient cube: what shadow_lookup and light_data sample
     std::vector<BufferRef> buffers;  ///< and read
     std::function<void()> bind;      ///< binds those and the frame block
-    bool medium_transmittance = false;  ///< media dim light on its way to surfaces
-    int light_volumes = 0;              ///< of them, local ones: see volumetrics::LightTransmittance
+    /// Of the axes of lighting and transparents, those that modules set: 0 is what is not here.
+    Permutation defines;
 };
 
 /// Adds the pass "lighting": the radiance of all surfaces in the G-buffer, black where there is none. Returns the

@@ -196,7 +196,7 @@ void ShadowAtlasPass::draw(const PassContext& pass, const GpuScene& gpu) {
     tiles_drawn_ = static_cast<int>(redraws_.size());
 }
 
-ShadowAtlasPass::Output ShadowAtlasPass::add(FrameContext& context, std::span<const std::size_t> lights_in_view) {
+ShadowAtlasPass::Output ShadowAtlasPass::add(FrameContext& context) {
     tiles_drawn_ = 0;
     ++frame_;
     const Scene& scene = context.scene;
@@ -212,9 +212,8 @@ ShadowAtlasPass::Output ShadowAtlasPass::add(FrameContext& context, std::span<co
     }
 
     std::vector<std::size_t> casters;
-    for (const std::size_t i : lights_in_view)
-        if (casts(scene.lights[i])) casters.push_back(i);
-    std::ranges::sort(casters);
+    for (const Lamp& lamp : context.facts.lamps)
+        if (lamp.in_view && casts(scene.lights[lamp.light])) casters.push_back(lamp.light);
     for (std::size_t i = 0; i < lights_.size(); ++i)
         if (!casts(scene.lights[i])) drop(lights_[i]);
     for (const std::size_t i : casters) lights_[i].seen = frame_;

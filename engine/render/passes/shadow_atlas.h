@@ -26,10 +26,10 @@ class ShadowAtlasPass {
         TextureRef atlas;  ///< D32F; empty when no lamp of the scene casts shadows or shadows are off
         BufferRef tiles;   ///< shared::ShadowTile[]
     };
-    /// `lights_in_view`: indices into scene.lights. Gives their shadow casters tiles and adds the pass
-    /// "shadow_atlas" if any must be drawn (else skips it with the reason). Lights out of view keep tiles while
-    /// there is room. Without a shadow-casting lamp, or with settings.shadows off, everything is freed.
-    Output add(FrameContext& context, std::span<const std::size_t> lights_in_view);
+    /// Gives the shadow casters among the lamps in view tiles and adds the pass "shadow_atlas" if any must be drawn
+    /// (else skips it with the reason). Lights out of view keep tiles while there is room. Without a shadow-casting
+    /// lamp, or with settings.shadows off, everything is freed.
+    Output add(FrameContext& context);
     /// Index of a scene light's first tile in the tile buffer, -1 when it has none. Valid after add().
     [[nodiscard]] int first_tile(std::size_t scene_light_index) const;
     /// Tiles that this frame's pass list has drawn.

@@ -41,15 +41,20 @@ const ProgramDesc particle_program{.name = "particles",
 const ProgramRegistry::Registration registrations[] = {ProgramRegistry::Registration(surface_program),
                                                        ProgramRegistry::Registration(particle_program)};
 
-Permutation permutation(const FrameContext& frame, const LightSources& sources, bool fog) {
+Permutation permutation(const FrameContext& frame, const LightSources& sources,
+                        std::span<const FrameModule::Transparents> modules) {
+    Permutation defines = sources.defines;
+    for (const FrameModule::Transparents& module : modules)
+        defines.insert(module.defines.begin(), module.defines.end());
     const bool lamps = frame.facts.local_lights_in_view > 0, lights = frame.facts.has_sun || lamps;
-    return {{"HAS_SUN", frame.facts.has_sun},
-            {"HAS_LAMPS", lamps},
-            {"SHADOWS", frame.settings.shadows && lights},
-            {"MEDIUM_TRANSMITTANCE", sources.medium_transmittance && lights},
-            {"LIGHT_VOLUMES", sources.light_volumes},
-            {"FOG", fog},
-            {"COUNT_WORK", frame.count_work}};
+    defines.merge(Permutation{{"HAS_SUN", frame.facts.has_sun},
+                              {"HAS_LAMPS", lamps},
+                              {"SHADOWS", frame.settings.shadows && lights},
+                              {"MEDIUM_TRANSMITTANCE", 0},
+                              {"LIGHT_VOLUMES", 0},
+                              {"FOG", 0},
+                              {"COUNT_WORK", frame.count_work}});
+    return defines;
 }
 
 /// Of something to be drawn: an entry of GpuScene::instances() or of a list of particles.
@@ -117,8 +122,7 @@ bool TransparentPass::gather(const FrameContext& frame) {
 }
 
 TextureRef TransparentPass::add(FrameContext& frame, const GBuffer& g, const LightSources& sources,
-                                const volumetrics::Volumetrics& volumetrics, const volumetrics::Fog& fog,
-                                TextureRef color) {
+                                std::span<FrameModule* const> modules, TextureRef color) {
     if (draws_.empty()) {
         frame.passes.skip("transparent", "nothing transparent in view");
         visible_ = {};
@@ -128,24 +132,28 @@ TextureRef TransparentPass::add(FrameContext& frame, const GBuffer& g, const Lig
     if (!no_vertices_.id()) no_vertices_ = gl::VertexArray("particles");
     visible_.assign(std::span<const std::uint32_t>(instances_), "transparent instances");
     particle_buffer_.assign(std::span<const shared::Particle>(particles_), "particles");
+    std::vector<FrameModule::Transparents> additions;
+    for (const FrameModule* module : modules) additions.push_back(module->transparents());
     frame.passes.add(
         "transparent",
         [&](PassBuilder& pass) {
             pass.sample(sources.sky);
             for (TextureRef texture : sources.textures) pass.sample(texture);
             for (BufferRef buffer : sources.buffers) pass.read(buffer);
-            if (fog) volumetrics::Volumetrics::sample_fog(pass, fog);
+            for (const FrameModule::Transparents& addition : additions)
+                if (addition.declare) addition.declare(pass);
             pass.sample(g.depth);
             color = pass.attach_color(color);
             pass.attach_depth_read_only(g.depth);
         },
-        [this, &frame, &sources, &volumetrics, fog, depth = g.depth](const PassContext& pass) {
+        [this, &frame, &sources, additions, depth = g.depth](const PassContext& pass) {
             pass.bind_framebuffer();
             sources.bind();
-            if (fog) volumetrics.bind_fog(pass, fog);
+            for (const FrameModule::Transparents& addition : additions)
+                if (addition.bind) addition.bind(pass);
             glBindSamplers(0, 6, nullptr);
             glBindTextureUnit(5, sources.sky ? pass.texture(sources.sky).id : 0);
-            const Permutation p = permutation(frame, sources, static_cast<bool>(fog));
+            const Permutation p = permutation(frame, sources, additions);
             const gl::Program& surfaces = frame.shaders.get(surface_program, p);
             const gl::Program& particles = frame.shaders.get(particle_program, p);
             const GLuint depth_texture = pass.texture(depth).id;

@@ -5,26 +5,24 @@
 #include "engine/gl/buffer.h"
 #include "engine/gl/vertex_array.h"
 #include "engine/render/frame_context.h"
+#include "engine/render/frame_module.h"
 #include "engine/render/passes/gbuffer.h"
 #include "engine/render/passes/lighting.h"
 #include "shaders/shared/particles.h"
-#include "volumetrics/volumetrics.h"
 
 namespace tyndall {
 
 /// Alpha-blended surfaces and particles, over the finished picture of the opaque ones: lit and shadowed as those
-/// are, and fogged each at its own depth. They are drawn back to front by the view depth of their middle, an
-/// instance as a whole: surfaces that cut each other, or a small one before the near part of a large one, may blend
-/// in the wrong order.
+/// are; modules may change what each adds to the picture, such as fog it at its own depth. They are drawn back to
+/// front by the view depth of their middle, an instance as a whole: surfaces that cut each other, or a small one
+/// before the near part of a large one, may blend in the wrong order.
 class TransparentPass {
   public:
     /// Finds what of the scene is in view at frame.time; true if anything is. To be called before `add`.
     bool gather(const FrameContext& frame);
-    /// Adds the pass "transparent", or skips it. `fog` is what the media before them need (empty: no fog);
-    /// `volumetrics` made it and binds it. Returns the new version of `color` (RGBA16F, fogged).
+    /// Adds the pass "transparent", or skips it. Returns the new version of `color` (RGBA16F).
     [[nodiscard]] TextureRef add(FrameContext& frame, const GBuffer& gbuffer, const LightSources& sources,
-                                 const volumetrics::Volumetrics& volumetrics, const volumetrics::Fog& fog,
-                                 TextureRef color);
+                                 std::span<FrameModule* const> modules, TextureRef color);
     [[nodiscard]] std::size_t instance_count() const { return instances_.size(); }
     [[nodiscard]] std::size_t particle_count() const { return particles_.size(); }
 

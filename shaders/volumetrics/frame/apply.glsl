@@ -19,7 +19,7 @@ layout(binding = UNIT_FOG_RADIANCE) uniform sampler3D froxel_radiance;  // see f
 layout(binding = UNIT_FOG_OPTICAL_DEPTH) uniform sampler3D froxel_optical_depth;
 #endif
 
-struct Fog {
+struct FogInFront {
     vec3 scattering;     // S(0, d): radiance
     vec3 transmittance;  // T(0, d)
 };
@@ -133,10 +133,10 @@ March froxel_march(vec2 uv, float surface, bool opaque, bool endless, vec3 ambie
 }
 
 // At screen position uv (0..1, origin lower left) up to a view depth [m].
-Fog fog_at(vec2 uv, float view_depth) {
+FogInFront fog_at(vec2 uv, float view_depth) {
     vec3 ambient = view_depth > froxel_far() && volumetrics.options.z != 0u ? ambient_radiance() : vec3(0.0);
     March march = froxel_march(uv, view_depth, false, false, ambient);
-    return Fog(march.radiance, vec3(march.transmittance));
+    return FogInFront(march.radiance, vec3(march.transmittance));
 }
 
 // A fragment at a view depth [m] in front of the already fogged picture, to be blended as dst = src.rgb + dst (1 - src.a).
@@ -147,7 +147,7 @@ Fog fog_at(vec2 uv, float view_depth) {
 // the fog before the fragment is already in dst but for the part that the fragment covers. Any transmittance, coloured or
 // not, needs no more than the one blend factor. alpha 1 is an opaque surface in fog, alpha 0 a light in it.
 vec4 apply_volumetrics(vec3 color, float alpha, vec2 uv, float view_depth) {
-    Fog fog = fog_at(uv, view_depth);
+    FogInFront fog = fog_at(uv, view_depth);
     return vec4(fog.transmittance * color + alpha * fog.scattering, alpha);
 }
 

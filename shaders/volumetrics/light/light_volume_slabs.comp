@@ -32,8 +32,8 @@ vec3 slab_optical_depth(vec3 from, vec3 direction, float path_length) {
     vec3 depth = vec3(0.0);
     vec3 middle = from + direction * (0.5 * path_length);
     for (uint i = 0u; i < media_count; ++i) {
-        vec3 p = (local_media[i].world_to_shape * vec4(middle, 1.0)).xyz;
-        float reach = length(local_media[i].extent_softness.xyz) + 0.5 * path_length;
+        vec3 p = to_shape(local_media[i], middle);
+        float reach = shape_radius(local_media[i]) + 0.5 * path_length;
         if (dot(p, p) > reach * reach) continue;
         LocalMedium medium = local_media[i];
         vec2 inside = inside_shape(medium, from, direction, 0.0, path_length);

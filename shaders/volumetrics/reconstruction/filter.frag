@@ -1,4 +1,4 @@
-// One direction of a separable filter of 2 radius + 1 taps, of scattering and transmittance. DEPTH 0 knows no depth, 1
+// One direction of a separable filter of 2 radius + 1 taps, of TEXTURES textures alike. DEPTH 0 knows no depth, 1
 // weighs taps by their depth against the pixel's, 2 also by their depth against the plane that the pixel lies in.
 // Taps outside of the picture are left out, and the rest is renormalised. NARROWS: see narrowing().
 #include "shaders/lib/work.glsl"
@@ -6,14 +6,11 @@
 #include "shaders/volumetrics/reconstruction/depth_weight.glsl"
 
 layout(binding = 0) uniform sampler2D depth_texture;
-layout(binding = 1) uniform sampler2D scattering_texture;
-#if CHROMATIC
-layout(binding = 2) uniform sampler2D transmittance_texture;
-#endif
 #if NARROWS
-layout(binding = 3) uniform sampler2D frames_texture;  // y frames in the mean that the pixel is, at least 1
+layout(binding = 1) uniform sampler2D frames_texture;  // y frames in the mean that the pixel is, at least 1
 uniform float kernel_variance;                         // px²
 #endif
+layout(binding = 2) uniform sampler2D values[TEXTURES];
 uniform int radius;        // at most 7 px
 uniform vec4 weights_0_3;  // by distance from the centre, px; the first is positive
 uniform vec4 weights_4_7;
@@ -24,10 +21,7 @@ uniform float slope_stride;     // px between the depths that make a slope
 uniform float slope_tolerance;  // px by whose slope depths of one plane may be off it
 
 layout(location = 0) in vec2 uv;
-layout(location = 0) out vec4 out_scattering;
-#if CHROMATIC
-layout(location = 1) out vec4 out_transmittance;
-#endif
+layout(location = 0) out vec4 results[TEXTURES];
 
 float inside(vec2 p) {
     vec2 in_axis = step(abs(p - 0.5), vec2(0.5));
@@ -92,10 +86,8 @@ void main() {
     // As far as exp(-k x²) > 1 / 512.
     reach = min(radius, int(sqrt(6.24 / max(narrow, 1.0e-3))));
 #endif
-    vec4 sum = textureLod(scattering_texture, uv, 0.0) * weights_0_3.x;
-#if CHROMATIC
-    vec4 transmittance = textureLod(transmittance_texture, uv, 0.0) * weights_0_3.x;
-#endif
+    vec4 sums[TEXTURES];
+    for (int k = 0; k < TEXTURES; ++k) sums[k] = textureLod(values[k], uv, 0.0) * weights_0_3.x;
     float total = weights_0_3.x;
 #if DEPTH
     float d = depth_at(uv);
@@ -126,20 +118,14 @@ void main() {
 #endif
             weight *= alike;
 #endif
-            sum += textureLod(scattering_texture, p, 0.0) * weight;
-#if CHROMATIC
-            transmittance += textureLod(transmittance_texture, p, 0.0) * weight;
-#endif
+            for (int k = 0; k < TEXTURES; ++k) sums[k] += textureLod(values[k], p, 0.0) * weight;
             total += weight;
         }
     }
-    count_work(WORK_TEXTURE_FETCHES, uint((2 * reach + 1) * (1 + CHROMATIC)));
+    count_work(WORK_TEXTURE_FETCHES, uint((2 * reach + 1) * TEXTURES));
 #if DEPTH
     count_work(WORK_TEXTURE_FETCHES, uint(2 * reach + 1));
 #endif
-    out_scattering = round_to_half(sum / total);
-#if CHROMATIC
-    out_transmittance = round_to_half(transmittance / total);
-#endif
+    for (int k = 0; k < TEXTURES; ++k) results[k] = round_to_half(sums[k] / total);
     flush_work();
 }

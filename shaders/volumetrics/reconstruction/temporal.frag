@@ -1,4 +1,4 @@
-// The setting temporal: mean over frames of scattering S and transmittance T of each pixel,
+// The setting temporal: mean over frames of the values s of each pixel in TEXTURES textures alike,
 //     S_n = h + (s_n - h) (1 - k),
 // h what is kept at the place where the surface seen in the pixel was in the frame before, s_n the new frame, and k the
 // share of what is kept: 0 where that place was off screen, else with the acceptance A in 0..1
@@ -16,14 +16,11 @@
 #include "shaders/volumetrics/reconstruction/depth_weight.glsl"
 
 layout(binding = 0) uniform sampler2D depth_texture;
-layout(binding = 1) uniform sampler2D scattering_now;
-layout(binding = 2) uniform sampler2D scattering_before;
-layout(binding = 3) uniform sampler2D surface_before;  // see out_surface
-layout(binding = 4) uniform sampler2D motion_texture;
-#if CHROMATIC
-layout(binding = 5) uniform sampler2D transmittance_now;
-layout(binding = 6) uniform sampler2D transmittance_before;
-#endif
+layout(binding = 1) uniform sampler2D surface_before;  // see out_surface
+layout(binding = 2) uniform sampler2D motion_texture;
+layout(binding = 3) uniform sampler2D values[2 * TEXTURES];  // now, then before; the first tells of changes
+#define VALUES_NOW(k) values[k]
+#define VALUES_BEFORE(k) values[TEXTURES + k]
 
 uniform int taps;            // of what is kept: 0 there is nothing, 1 the pixel's own, 4 around its place before
 uniform bool low;            // the target is of the chosen resolution, not of the host's
@@ -42,17 +39,13 @@ uniform float changed_frames[16];
 uniform uint frame;
 uniform mat4 previous_clip_from_view;
 
-layout(location = 0) out vec4 out_scattering;
 // x 1 / view depth (1/m), 0 sky; y frames; of REJECT: z standard deviation, w mean of the last changes, in radiance.
-layout(location = 1) out vec4 out_surface;
-#if CHROMATIC
-layout(location = 2) out vec4 out_transmittance;
-#endif
-layout(location = 2 + CHROMATIC) out float out_acceptance;  // attached where it is asked for
+layout(location = 0) out vec4 out_surface;
+layout(location = 1) out vec4 results[TEXTURES];
+layout(location = 1 + TEXTURES) out float out_acceptance;  // attached where it is asked for
 
 struct Kept {
-    vec4 scattering;
-    vec4 transmittance;
+    vec4 values[TEXTURES];
     vec3 statistics;  // frames, standard deviation, mean of the last changes
     float acceptance;
 };
@@ -120,13 +113,21 @@ float relative_distance(float a, float b) {
 }
 
 // Not so for what is not a number.
-bool is_usable(vec4 scattering, vec4 surface) {
-    return all(lessThanEqual(abs(scattering), vec4(HALF_MAX))) && surface.y >= 1.0 && surface.y <= 256.0 &&
+bool is_usable(vec4 v, vec4 surface) {
+    return all(lessThanEqual(abs(v), vec4(HALF_MAX))) && surface.y >= 1.0 && surface.y <= 256.0 &&
            surface.x >= 0.0;
 }
 
+Kept nothing_kept() {
+    Kept nothing;
+    for (int k = 0; k < TEXTURES; ++k) nothing.values[k] = vec4(0.0);
+    nothing.statistics = vec3(0.0);
+    nothing.acceptance = 0.0;
+    return nothing;
+}
+
 Kept kept_at(vec2 place, float inverse_depth, vec2 slope, ivec2 size) {
-    Kept sum = Kept(vec4(0.0), vec4(0.0), vec3(0.0), 0.0);
+    Kept sum = nothing_kept();
     if (any(lessThan(place, vec2(0.0))) || !all(lessThan(place, vec2(size)))) return sum;
     ivec2 base = taps == 1 ? ivec2(place) : ivec2(floor(place - 0.5));
     vec2 f = taps == 1 ? vec2(0.0) : place - 0.5 - vec2(base);
@@ -137,29 +138,26 @@ Kept kept_at(vec2 place, float inverse_depth, vec2 slope, ivec2 size) {
         vec2 side = mix(1.0 - f, f, vec2(corner));
         float weight = side.x * side.y;
         if (any(lessThan(texel, ivec2(0))) || any(greaterThanEqual(texel, size))) continue;
-        count_work(WORK_TEXTURE_FETCHES, uint(2 + CHROMATIC));
+        count_work(WORK_TEXTURE_FETCHES, uint(1 + TEXTURES));
         total += weight;
-        vec4 scattering = texelFetch(scattering_before, texel, 0);
         vec4 surface = texelFetch(surface_before, texel, 0);
-        if (!is_usable(scattering, surface)) continue;
-#if CHROMATIC
-        vec4 transmittance = texelFetch(transmittance_before, texel, 0);
-        if (!is_usable(transmittance, surface)) continue;
-#endif
+        vec4 before[TEXTURES];
+        bool usable_all = true;
+        for (int k = 0; k < TEXTURES; ++k) {
+            before[k] = texelFetch(VALUES_BEFORE(k), texel, 0);
+            usable_all = usable_all && is_usable(before[k], surface);
+        }
+        if (!usable_all) continue;
         if (by_depth) {
             float plane = max(inverse_depth + dot(slope, vec2(texel) + 0.5 - place), 0.0);
             weight *= exp(-scale * min(relative_distance(surface.x, inverse_depth), relative_distance(surface.x, plane)));
         }
-        sum.scattering += scattering * weight;
+        for (int k = 0; k < TEXTURES; ++k) sum.values[k] += before[k] * weight;
         sum.statistics += surface.yzw * weight;
-#if CHROMATIC
-        sum.transmittance += transmittance * weight;
-#endif
         sum.acceptance += weight;
     }
     float accepted = max(sum.acceptance, 1.0e-30);
-    sum.scattering /= accepted;
-    sum.transmittance /= accepted;
+    for (int k = 0; k < TEXTURES; ++k) sum.values[k] /= accepted;
     sum.statistics /= accepted;
     sum.acceptance = total > 0.0 && sum.acceptance > 1.0e-6 ? min(sum.acceptance / total, 1.0) : 0.0;
     return sum;
@@ -173,12 +171,12 @@ vec4 usable(vec4 v) {
 #if CLIP
 // What is kept, within 2.5 standard deviations of the mean of the 3x3 pixels of the new frame around, or `least_width`; the
 // pixel's own value is always within. Fewer cut off light that few samples find, and a still picture darkens.
-vec4 clipped(vec4 kept, sampler2D values, vec4 now, ivec2 pixel, ivec2 size, float least_width) {
+vec4 clipped(vec4 kept, int k, vec4 now, ivec2 pixel, ivec2 size, float least_width) {
     count_work(WORK_TEXTURE_FETCHES, 9u);
     vec4 sum = vec4(0.0), squares = vec4(0.0);
     for (int i = 0; i < 9; ++i) {
         ivec2 texel = clamp(pixel + ivec2(i % 3, i / 3) - 1, ivec2(0), size - 1);
-        vec4 v = usable(texelFetch(values, texel, 0)) - now;
+        vec4 v = usable(texelFetch(VALUES_NOW(k), texel, 0)) - now;
         sum += v;
         squares += v * v;
     }
@@ -206,13 +204,13 @@ float luminance(vec4 v) { return dot(v.rgb, vec3(1.0 / 3.0)); }
 
 // Of 5x5 pixels, with the weights (1, 1, 2, 1, 1) / 6 in x and in y; and the variance of its luminance, by that between the
 // nine fetches.
-vec4 mean_around(sampler2D values, vec2 place, vec2 size, out float variance) {
+vec4 mean_around(sampler2D image, vec2 place, vec2 size, out float variance) {
     count_work(WORK_TEXTURE_FETCHES, 10u);
-    vec4 first = textureLod(values, place / size, 0.0);
+    vec4 first = textureLod(image, place / size, 0.0);
     vec4 sum = vec4(0.0);
     float squares = 0.0;
     for (int i = 0; i < 9; ++i) {
-        vec4 v = textureLod(values, (place + 1.5 * (vec2(i % 3, i / 3) - 1.0)) / size, 0.0) - first;
+        vec4 v = textureLod(image, (place + 1.5 * (vec2(i % 3, i / 3) - 1.0)) / size, 0.0) - first;
         sum += v;
         squares += luminance(v) * luminance(v);
     }
@@ -225,11 +223,11 @@ Change no_history(float light) { return Change(0.0, 0.2 * light, 0.0); }
 
 Change change_of(vec2 place, Kept kept, vec2 size) {
     float variance_now, variance_before;
-    vec4 mean_now = mean_around(scattering_now, gl_FragCoord.xy, size, variance_now);
+    vec4 mean_now = mean_around(VALUES_NOW(0), gl_FragCoord.xy, size, variance_now);
     float now = luminance(mean_now);
     Change start = no_history(min(now, HALF_MAX));
     if (kept.acceptance <= 0.0) return start;
-    vec4 mean_before = mean_around(scattering_before, place, size, variance_before);
+    vec4 mean_before = mean_around(VALUES_BEFORE(0), place, size, variance_before);
     float before = luminance(mean_before);
     float d = now - before;
     float deviation = kept.statistics.y, drift = kept.statistics.z;
@@ -256,18 +254,16 @@ vec4 dithered_half(vec4 v, float r) {
 }
 
 void main() {
-    ivec2 size = textureSize(scattering_now, 0);
+    ivec2 size = textureSize(VALUES_NOW(0), 0);
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     vec3 surface = surface_of(pixel, size);
-    vec4 now = usable(texelFetch(scattering_now, pixel, 0));
-#if CHROMATIC
-    vec4 transmittance = usable(texelFetch(transmittance_now, pixel, 0));
-#endif
-    count_work(WORK_TEXTURE_FETCHES, uint(1 + CHROMATIC));
+    vec4 now[TEXTURES];
+    for (int k = 0; k < TEXTURES; ++k) now[k] = usable(texelFetch(VALUES_NOW(k), pixel, 0));
+    count_work(WORK_TEXTURE_FETCHES, uint(TEXTURES));
 
     vec3 place = vec3(gl_FragCoord.xy, 1.0);
     if (taps == 4) place = place_before(surface.x);
-    Kept kept = Kept(vec4(0.0), vec4(0.0), vec3(0.0), 0.0);
+    Kept kept = nothing_kept();
     if (taps > 0 && place.z > 0.0) kept = kept_at(place.xy, surface.x * place.z, surface.yz * place.z, size);
     float acceptance = kept.acceptance;
     vec2 statistics = vec2(0.0);
@@ -280,10 +276,8 @@ void main() {
     least_width = 2.0 * change.deviation;
 #endif
 #if CLIP
-    kept.scattering = clipped(kept.scattering, scattering_now, now, pixel, size, least_width);
-#if CHROMATIC
-    kept.transmittance = clipped(kept.transmittance, transmittance_now, transmittance, pixel, size, 0.0);
-#endif
+    for (int k = 0; k < TEXTURES; ++k)
+        kept.values[k] = clipped(kept.values[k], k, now[k], pixel, size, k == 0 ? least_width : 0.0);
 #endif
 
     float frames = min(kept.statistics.x, most_frames - 1.0);
@@ -295,12 +289,10 @@ void main() {
     out_acceptance = acceptance <= 0.0 ? 0.0 : most_share <= 0.0 ? acceptance : min((counted ? kept_frames : share) / most_share, 1.0);
 
     float r = (floor(256.0 * golden_ratio_offset(interleaved_gradient_offset(uvec2(pixel), 0u), frame)) + 0.5) / 256.0;
-    vec4 past = share > 0.0 ? kept.scattering : now;
-    out_scattering = dithered_half(past + (now - past) * (1.0 - share), r);
     out_surface = vec4(surface.x, min(kept_frames, 255.0) + 1.0, statistics);
-#if CHROMATIC
-    vec4 past_transmittance = share > 0.0 ? kept.transmittance : transmittance;
-    out_transmittance = dithered_half(past_transmittance + (transmittance - past_transmittance) * (1.0 - share), r);
-#endif
+    for (int k = 0; k < TEXTURES; ++k) {
+        vec4 past = share > 0.0 ? kept.values[k] : now[k];
+        results[k] = dithered_half(past + (now[k] - past) * (1.0 - share), r);
+    }
     flush_work();
 }

@@ -1,4 +1,4 @@
-// From low to full resolution: each pixel takes from the low pixels around it, of its own surface where the mode asks so.
+// From low to full resolution, TEXTURES textures alike: each pixel takes from the low pixels around it, of its own surface where the mode asks so.
 //   bilinear       the 2x2 around.
 //   bilateral      the same times depth_weight() (Tomasi and Manduchi 1998; Kopf et al. 2007).
 //   nearest_depth  the same as bilinear where all four lie on the pixel's surface, else the one whose depth is most like the
@@ -12,18 +12,12 @@
 
 layout(binding = 0) uniform sampler2D depth_texture;      // of the host
 layout(binding = 1) uniform sampler2D low_depth_texture;  // depth_downsample.frag
-layout(binding = 2) uniform sampler2D scattering_texture;
-#if CHROMATIC
-layout(binding = 3) uniform sampler2D transmittance_texture;
-#endif
+layout(binding = 2) uniform sampler2D values[TEXTURES];
 uniform int factor;  // pixels of the host along each side of a low one
 uniform int mode;    // Upsample
 uniform float depth_falloff;
 
-layout(location = 0) out vec4 out_scattering;
-#if CHROMATIC
-layout(location = 1) out vec4 out_transmittance;
-#endif
+layout(location = 0) out vec4 results[TEXTURES];
 
 const int NEAREST = 0, BILINEAR = 1, BILATERAL = 2;
 const float SAME_SURFACE = 0.5;  // depth_weight() above which nearest_depth interpolates
@@ -92,22 +86,20 @@ ivec2 most_alike(Surface surface, ivec2 own, ivec2 last) {
     return best;
 }
 
-void fetch(ivec2 low, float weight, inout vec4 scattering, inout vec4 transmittance) {
-    scattering += weight * texelFetch(scattering_texture, low, 0);
-#if CHROMATIC
-    transmittance += weight * texelFetch(transmittance_texture, low, 0);
-#endif
-    count_work(WORK_TEXTURE_FETCHES, uint(1 + CHROMATIC));
+void fetch(ivec2 low, float weight, inout vec4 sums[TEXTURES]) {
+    for (int k = 0; k < TEXTURES; ++k) sums[k] += weight * texelFetch(values[k], low, 0);
+    count_work(WORK_TEXTURE_FETCHES, uint(TEXTURES));
 }
 
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
-    ivec2 last = textureSize(scattering_texture, 0) - 1;
+    ivec2 last = textureSize(low_depth_texture, 0) - 1;
     ivec2 own = pixel / factor;
-    vec4 scattering = vec4(0.0), transmittance = vec4(0.0);
+    vec4 sums[TEXTURES];
+    for (int k = 0; k < TEXTURES; ++k) sums[k] = vec4(0.0);
     float total = 1.0;
     if (mode == NEAREST) {
-        fetch(own, 1.0, scattering, transmittance);
+        fetch(own, 1.0, sums);
     } else {
         ivec2 low_0 = max(own - ivec2(lessThan(gl_FragCoord.xy, centre_of(own))), ivec2(0));
         ivec2 low_1 = min(low_0 + 1, last);
@@ -133,11 +125,8 @@ void main() {
             }
         }
         for (int i = 0; i < 4; ++i)
-            if (weights[i] > 0.0) fetch(lows[i], weights[i], scattering, transmittance);
+            if (weights[i] > 0.0) fetch(lows[i], weights[i], sums);
     }
-    out_scattering = round_to_half(scattering / total);
-#if CHROMATIC
-    out_transmittance = round_to_half(transmittance / total);
-#endif
+    for (int k = 0; k < TEXTURES; ++k) results[k] = round_to_half(sums[k] / total);
     flush_work();
 }

@@ -46,11 +46,11 @@ Curve fog_curve(int mode, Extinction sigma_t, float surface, bool endless) {
     return curve;
 }
 
-Fog fog_as_at_eye(int mode, Ray ray, float surface, bool endless) {
+ClosedFormFog fog_as_at_eye(int mode, Ray ray, float surface, bool endless) {
     Medium m = global_medium(ray.origin.y, 0.0, 1.0);
     count_work(WORK_MEDIUM_SAMPLES, 1u);
     Curve curve = fog_curve(mode, to_extinction(m.optical_depth), surface, endless);
-    Fog fog;
+    ClosedFormFog fog;
     fog.glow = glow_over(m, curve.effective_length, ambient);
     fog.sun = vec3(0.0);
 #if HAS_SUN
@@ -67,7 +67,7 @@ void main() {
     count_work(WORK_TEXTURE_FETCHES, 1u);
     float surface = ray_distance_from_view_depth(view_depth_from_buffer(depth, volumetrics.eye.w), ray.forward_cosine);
     int mode = int(volumetrics.fog.x);
-    Fog fog;
+    ClosedFormFog fog;
     if (mode == FOG_HEIGHT)
         fog = fog_over_ray(ray, surface, is_background(depth), ambient);
     else

@@ -6,7 +6,7 @@
 
 #include "shaders/volumetrics/light/segment.glsl"
 
-struct Fog {
+struct ClosedFormFog {
     vec3 glow;  // ambient light and emission
     vec3 sun;
     Extinction transmittance;
@@ -26,7 +26,7 @@ vec3 sun_over(Ray ray, Medium m, Extinction effective_length) {
 }
 #endif
 
-void add_segment(Ray ray, float begin, float end, vec3 ambient, inout Extinction sun_front, inout Fog fog) {
+void add_segment(Ray ray, float begin, float end, vec3 ambient, inout Extinction sun_front, inout ClosedFormFog fog) {
     Medium m = global_medium(ray.origin.y + ray.direction.y * begin, ray.direction.y, end - begin);
     count_work(WORK_MEDIUM_SAMPLES, 1u);
     Optics optics = medium_optics(m, end - begin);
@@ -110,8 +110,8 @@ float cut_at(Cuts cuts, int i, bool falling) {
 }
 
 // surface: distance, m; endless: there is none, and `surface` only stands for far away.
-Fog fog_over_ray(Ray ray, float surface, bool endless, vec3 ambient) {
-    Fog fog = Fog(vec3(0.0), vec3(0.0), Extinction(1.0));
+ClosedFormFog fog_over_ray(Ray ray, float surface, bool endless, vec3 ambient) {
+    ClosedFormFog fog = ClosedFormFog(vec3(0.0), vec3(0.0), Extinction(1.0));
     Extinction sun_front = Extinction(0.0);
 #if HAS_SUN
     sun_front = to_extinction(sun_optical_depth(ray.origin.y, -sun_direction()));

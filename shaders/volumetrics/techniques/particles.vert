@@ -4,7 +4,7 @@
 #include "shaders/shared/sprites.h"
 #include "shaders/volumetrics/frame/ray.glsl"
 
-layout(std430, binding = BINDING_SPRITES) readonly buffer ParticleBuffer { Particle particles[]; };
+layout(std430, binding = BINDING_SPRITES) readonly buffer ParticleBuffer { ParticleSprite particles[]; };
 
 uniform mat4 view_projection;  // of points relative to the eye
 uniform float near;            // m
@@ -14,7 +14,7 @@ layout(location = 1) flat out vec4 light;
 layout(location = 2) flat out vec4 extinction;
 
 void main() {
-    Particle particle = particles[gl_InstanceID];
+    ParticleSprite particle = particles[gl_InstanceID];
     center_radius = particle.center_radius;
     light = particle.light;
     extinction = particle.extinction;

@@ -18,7 +18,7 @@
 
 layout(local_size_x = 64) in;
 
-layout(std430, binding = BINDING_SPRITES) writeonly buffer ParticleBuffer { Particle particles[]; };
+layout(std430, binding = BINDING_SPRITES) writeonly buffer ParticleBuffer { ParticleSprite particles[]; };
 
 uniform uint first;  // of this dispatch
 uniform uint count;
@@ -53,24 +53,12 @@ vec3 lattice_particle(uint index) {
     return lower_corner + (vec3(cell) + vec3(unit_float(place.x), unit_float(place.y), unit_float(place.z))) * spacing;
 }
 
-// The R3 sequence in the shape's cube, or with that volume in its ball; it drifts along x and wraps
-// round, or turns about y.
+// The R3 sequence in the shape.
 vec3 shape_particle(LocalMedium local, uint index) {
     uvec3 r = (index + 1u + placement * count) * R3;
     vec3 u = vec3(unit_float(r.x), unit_float(r.y), unit_float(r.z));
-    vec3 extent = local.extent_softness.xyz;
-    vec3 p;
-    if (int(local.sigma_a_shape.w) == SHAPE_BOX) {
-        u.x = fract(u.x + drift / (2.0 * extent.x));
-        p = 2.0 * u - 1.0;
-    } else {
-        float angle = 2.0 * PI * u.z + drift / max(extent.x, extent.z);
-        float height = 1.0 - 2.0 * u.y;
-        float ring = sqrt(max(1.0 - height * height, 0.0));
-        p = pow(u.x, 1.0 / 3.0) * vec3(ring * cos(angle), height, ring * sin(angle));
-    }
-    vec3 eye = (local.world_to_shape * vec4(volumetrics.eye.xyz, 1.0)).xyz;
-    return transpose(mat3(local.world_to_shape)) * (p * extent - eye);
+    vec3 eye = to_shape(local, volumetrics.eye.xyz);
+    return transpose(mat3(local.world_to_shape)) * (shape_place(local, u, drift) - eye);
 }
 
 // Some of the sphere may be seen: not outside of one of the four sides of the view, nor behind the eye.
@@ -135,7 +123,7 @@ vec3 lamp_light(Ray ray, float begin, float end, Medium m) {
 #endif
 }
 
-Particle lit_particle(vec3 center, vec4 clip, float share) {
+ParticleSprite lit_particle(vec3 center, vec4 clip, float share) {
     float distance = max(length(center), 1.0e-4);
     vec2 uv = clip.w > 1.0e-4 ? clamp(0.5 * clip.xy / clip.w + 0.5, 0.0, 1.0) : vec2(0.5);
     Ray ray = Ray(volumetrics.eye.xyz, center / distance, max(clip.w / distance, 0.01), uv);
@@ -174,7 +162,7 @@ Particle lit_particle(vec3 center, vec4 clip, float share) {
     float scale = volume * share;
     light *= front;
     if (any(isnan(light)) || any(isinf(light))) light = vec3(0.0);  // of densities that no number holds
-    Particle particle;
+    ParticleSprite particle;
     particle.center_radius = vec4(center, radius);
     particle.light = scale * vec4(light, mean_channel(certain * own.effective_length));
     particle.extinction = medium < 0 ? vec4(0.0) : vec4(scale * m.optical_depth, 1.0);
@@ -195,7 +183,7 @@ void main() {
         center = shape_particle(local_media[medium], index);
     }
     vec4 clip = view_projection * vec4(center, 1.0);
-    Particle particle = Particle(vec4(0.0), vec4(0.0), vec4(0.0));
+    ParticleSprite particle = ParticleSprite(vec4(0.0), vec4(0.0), vec4(0.0));
     if (share > 0.0 && in_view(center, clip)) particle = lit_particle(center, clip, share);
     particles[first + index] = particle;
     flush_work();

@@ -23,7 +23,7 @@
 layout(binding = 0) uniform sampler2D depth_texture;
 
 layout(location = 0) flat in vec3 sun_clip;  // x, y, w
-layout(location = 0) out vec4 out_visibility;
+layout(location = 0) out vec4 out_share;
 
 const float FADE = 0.5;  // beyond the border, in half widths of the screen
 
@@ -159,6 +159,6 @@ void main() {
     float on_screen = sun_on_screen();
     float visibility = volumetrics.fog.w;
     if (on_screen > 0.0) visibility = mix(visibility, visibility_on_screen(ray, depth, surface), on_screen);
-    out_visibility = round_to_half(vec4(visibility));
+    out_share = round_to_half(vec4(vec3(visibility), 1.0));
     flush_work();
 }

@@ -93,10 +93,9 @@ MediaMask media_near(vec3 a, vec3 direction, float path_length, float distance) 
     for (uint word = 0u; word < MASK_WORDS; ++word) mask.words[word] = 0u;
 #if LOCAL_MEDIA
     for (uint i = 0u; i < min(volumetrics.counts.y, 32u * MASK_WORDS); ++i) {
-        mat4 to_shape = local_media[i].world_to_shape;
-        vec3 p = (to_shape * vec4(a, 1.0)).xyz;  // from the centre of the shape
-        vec3 d = mat3(to_shape) * direction;
-        float radius = length(local_media[i].extent_softness.xyz) + distance;
+        vec3 p = to_shape(local_media[i], a);
+        vec3 d = mat3(local_media[i].world_to_shape) * direction;
+        float radius = shape_radius(local_media[i]) + distance;
         p += d * clamp(-dot(p, d), 0.0, path_length);
         if (dot(p, p) <= radius * radius) mask.words[i / 32u] |= 1u << (i % 32u);
     }

@@ -2,17 +2,23 @@
 
 #include <glad/gl.h>
 
+#include <map>
 #include <memory>
 
 namespace tyndall {
 namespace {
 
 std::unique_ptr<GlContext> shared_context;
+std::map<std::filesystem::path, ShaderLibrary> libraries;
 
 /// Frees the context before the driver's own exit handlers run.
 class FreeContext : public ::testing::Environment {
   public:
-    void TearDown() override { shared_context.reset(); }
+    void TearDown() override {
+        if (!libraries.empty()) shared_context->make_current();
+        libraries.clear();
+        shared_context.reset();
+    }
 };
 [[maybe_unused]] ::testing::Environment* const environment = ::testing::AddGlobalTestEnvironment(new FreeContext);
 
@@ -33,6 +39,10 @@ GlTest::~GlTest() {
     glFinish();
     EXPECT_EQ(debug_messages().count, 0) << debug_messages().last;
     EXPECT_EQ(glGetError(), GLenum(GL_NO_ERROR));
+}
+
+ShaderLibrary& shared_shaders(const std::filesystem::path& root) {
+    return libraries.try_emplace(root, root).first->second;
 }
 
 }  // namespace tyndall

@@ -2,7 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
+#include "engine/core/files.h"
 #include "engine/platform/gl_context.h"
+#include "engine/shader/shader_library.h"
 
 namespace tyndall {
 
@@ -14,5 +18,9 @@ class GlTest : public ::testing::Test {
     ~GlTest() override;  ///< after the members of derived fixtures have freed their GL objects
     [[nodiscard]] static GlContext& context();
 };
+
+/// The programs of a folder that does not change, compiled once for all tests of the process: most of a test's time
+/// is the driver's compiler's.
+[[nodiscard]] ShaderLibrary& shared_shaders(const std::filesystem::path& root = data_root());
 
 }  // namespace tyndall

@@ -29,8 +29,7 @@ std::string shadow_shader(const std::string& defines, const std::string& main) {
            resolve_includes(data_root(), "shaders/engine/shadow_lookup.glsl") + main;
 }
 
-ShadowRig::ShadowRig(Scene scene_)
-    : scene(std::move(scene_)), shaders_(data_root()), gpu_(scene), sun(shaders_), atlas(shaders_) {
+ShadowRig::ShadowRig(Scene scene_) : scene(std::move(scene_)), gpu_(scene), sun(shaders_), atlas(shaders_) {
     settings.cascade_size = 512;
     settings.cascade_distance = 40;
     settings.static_shadow_size = 1024;
@@ -50,13 +49,13 @@ void ShadowRig::frame(std::span<const std::size_t> in_view) {
     gpu_.update(scene);
     FrameFacts facts;
     facts.has_sun = scene.sun().has_value();
-    facts.has_shadowed_lights = !in_view.empty();
+    for (const std::size_t light : in_view) facts.lamps.push_back({.light = light, .in_view = true});
     if (facts.has_sun)
         data.sun_direction = -scene.nodes[static_cast<std::size_t>(scene.lights[*scene.sun()].node)].world[2];
     passes_ = std::make_unique<PassList>();
     FrameContext context{scene, gpu_, view, facts, settings, shaders_, *passes_, data, {64, 64}};
     sun_output = sun.add(context);
-    atlas_output = atlas.add(context, in_view);
+    atlas_output = atlas.add(context);
     for (const TextureRef ref : {sun_output.cascades, sun_output.static_map, atlas_output.atlas})
         if (ref) passes_->export_texture(ref);
     passes_->compile();

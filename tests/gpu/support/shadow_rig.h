@@ -48,7 +48,7 @@ class ShadowRig {
     [[nodiscard]] const gl::Program& program(Lookup lookup, bool count_work);
     void dispatch(const gl::Program& program, std::span<const Point> points, gl::Buffer& results);
 
-    ShaderLibrary shaders_;
+    ShaderLibrary& shaders_ = shared_shaders();
     GpuScene gpu_;
 
   public:

@@ -10,6 +10,7 @@
 #include "engine/core/files.h"
 #include "engine/gl/readback.h"
 #include "shaders/shared/bindings.h"
+#include "tests/gpu/support/gl_test.h"
 
 namespace tyndall::test {
 namespace {
@@ -74,6 +75,12 @@ Image as_rgb(const Image& image, int channel) {
     return rgb;
 }
 
+/// Of all hosts.
+const ShaderFolder& stub_folder() {
+    static const ShaderFolder folder;
+    return folder;
+}
+
 }  // namespace
 
 ShaderFolder::ShaderFolder() {
@@ -92,7 +99,7 @@ ShaderFolder::~ShaderFolder() {
     fs::remove_all(path_, ignored);
 }
 
-StubHost::StubHost() : shaders_(folder_.path()), volumetrics_(shaders_) {}
+StubHost::StubHost() : volumetrics_(shared_shaders(stub_folder().path())) {}
 
 glm::mat4 StubHost::projection() const {
     const float f = 1 / std::tan(0.5F * vertical_fov);

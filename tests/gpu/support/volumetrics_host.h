@@ -20,6 +20,7 @@ using volumetrics::GlobalMedium;
 using volumetrics::Inputs;
 using volumetrics::LocalMedium;
 using volumetrics::Settings;
+using volumetrics::Shape;
 
 /// A view depth that stands for the sky.
 constexpr float sky = -1;
@@ -80,14 +81,11 @@ class StubHost {
     /// World-space ray through a pixel's centre, unit.
     [[nodiscard]] glm::vec3 ray(int x, int y) const;
     [[nodiscard]] Frame render(const Settings& settings);
-    [[nodiscard]] ShaderLibrary& shaders() { return shaders_; }
     [[nodiscard]] volumetrics::Volumetrics& volumetrics() { return volumetrics_; }
     [[nodiscard]] Inputs inputs(PassList& passes);
 
   private:
     void upload();
-    ShaderFolder folder_;
-    ShaderLibrary shaders_;
     volumetrics::Volumetrics volumetrics_;
     TransientPool pool_;
     gl::Texture depth_;

@@ -23,7 +23,7 @@ class AnalyticFog : public GlTest {
   protected:
     [[nodiscard]] static Settings settings(FogMode mode = FogMode::height) {
         Settings settings = plain_settings(1);
-        settings.technique = volumetrics::Technique::analytic_fog;
+        settings.technique = "analytic_fog";
         settings.fog_mode = mode;
         return settings;
     }

@@ -15,7 +15,7 @@ using ::testing::ElementsAre;
 
 class VolumetricsBillboards : public GlTest {
   protected:
-    VolumetricsBillboards() { s.technique = volumetrics::Technique::billboards; }
+    VolumetricsBillboards() { s.technique = "billboards"; }
 
     StubHost host;
     Settings s = without_fade();
@@ -194,7 +194,8 @@ TEST_F(VolumetricsBillboards, LowerResolutionIsTheSameWhereLightIsSmooth) {
     host.sun_direction = glm::normalize(glm::vec3(0.3F, -1, 0.4F));
     host.ambient = glm::vec3(0.1F);
     host.global = {{.sigma_s = {0.02F, 0.03F, 0.05F}, .anisotropy = 0.5F}};
-    host.local = {{.box = true, .center = {0, 0, -8}, .half_extent = {20, 20, 3}, .sigma_s = glm::vec3(0.05F)}};
+    host.local = {
+        {.shape = Shape::box, .center = {0, 0, -8}, .half_extent = {20, 20, 3}, .sigma_s = glm::vec3(0.05F)}};
     host.lights = {point_light({3, 4, -9}, 10)};
     for (const glm::ivec2 size : low_resolution_sizes) {
         host.size = size;
@@ -227,8 +228,9 @@ TEST_F(VolumetricsBillboards, FadeTakesHalfItsLengthOfMedium) {
 
 TEST_F(VolumetricsBillboards, LocalMediaAreTheChordInTheirShape) {
     row_of_depths();
-    host.local = {{.box = true, .center = {0, 0, -20}, .half_extent = {5, 5, 8}, .sigma_s = glm::vec3(0.08F)},
-                  {.center = {0, 0, -50}, .half_extent = {6, 6, 6}, .sigma_a = glm::vec3(0.05F)}};
+    host.local = {
+        {.shape = Shape::box, .center = {0, 0, -20}, .half_extent = {5, 5, 8}, .sigma_s = glm::vec3(0.08F)},
+        {.center = {0, 0, -50}, .half_extent = {6, 6, 6}, .sigma_a = glm::vec3(0.05F)}};
     host.ambient = glm::vec3(3);
     const auto chord = [](double d, double from, double to) { return std::clamp(d, from, to) - from; };
     for (const int layers : {1, 8}) {
@@ -264,7 +266,7 @@ TEST_F(VolumetricsBillboards, UnderEqualLightFromAllSidesNothingIsGainedOrLost) 
     host.ambient = glm::vec3(1);
     host.global = {{.sigma_s = {0.01F, 0.03F, 0.09F}}, {.sigma_s = glm::vec3(0.05F), .height = true, .falloff = 5}};
     host.local = {{.center = {0, 0, -9}, .half_extent = {3, 3, 3}, .softness = 1, .sigma_s = {0.5F, 0.1F, 0.3F}},
-                  {.box = true, .center = {1, 1, 0}, .half_extent = {2, 2, 2}, .sigma_s = glm::vec3(0.2F)}};
+                  {.shape = Shape::box, .center = {1, 1, 0}, .half_extent = {2, 2, 2}, .sigma_s = glm::vec3(0.2F)}};
     const Frame frame = host.render(s);
     for (int y = 0; y < 16; ++y)
         for (int x = 0; x < 24; ++x)

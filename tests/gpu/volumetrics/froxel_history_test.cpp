@@ -27,7 +27,7 @@ class VolumetricsFroxelHistory : public GlTest {
 
     static Settings settings(int history) {
         Settings s = plain_settings(1);
-        s.technique = volumetrics::Technique::froxel;
+        s.technique = "froxel";
         s.froxels_x = 16;
         s.froxels_y = 9;
         s.froxels_z = 24;

@@ -24,7 +24,7 @@ class VolumetricsFroxelRange : public GlTest {
         host.vertical_fov = 1e-4F;
         host.view_depth = [this](int x, int) { return depth(x); };
         settings = plain_settings(1);
-        settings.technique = volumetrics::Technique::froxel;
+        settings.technique = "froxel";
         settings.froxels_x = 256;
         settings.froxels_y = 8;
     }
@@ -102,7 +102,8 @@ TEST_F(VolumetricsFroxelRange, TheNearPlaneChangesNothing) {
 // long does at its ends is the distribution's error; `auto` has slices there and nowhere else.
 TEST_F(VolumetricsFroxelRange, AutoSlicesABoxOfFog) {
     host.ambient = glm::vec3(1);
-    host.local = {{.box = true, .center = {0, 0, -25}, .half_extent = {5, 5, 5}, .sigma_s = glm::vec3(0.1F)}};
+    host.local = {
+        {.shape = Shape::box, .center = {0, 0, -25}, .half_extent = {5, 5, 5}, .sigma_s = glm::vec3(0.1F)}};
     first = 10;
     growth = 1.01F;  // to 126 m
     settings.froxel_distribution = DepthDistribution::automatic;

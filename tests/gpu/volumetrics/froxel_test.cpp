@@ -24,7 +24,7 @@ class VolumetricsFroxel : public GlTest {
     /// A coarse grid for what does not vary over the screen.
     static Settings settings(int columns_x, int columns_y) {
         Settings settings = plain_settings(1);
-        settings.technique = volumetrics::Technique::froxel;
+        settings.technique = "froxel";
         settings.froxels_x = columns_x;
         settings.froxels_y = columns_y;
         return settings;

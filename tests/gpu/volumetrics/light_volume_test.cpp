@@ -15,7 +15,6 @@ namespace {
 using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::Not;
-using volumetrics::Technique;
 
 constexpr const char* sun_pass = "volumetrics/sun_volume";
 constexpr const char* lamp_pass = "volumetrics/lamp_volumes";
@@ -46,7 +45,7 @@ double chord(const LocalMedium& medium, glm::dvec3 a, glm::dvec3 b) {
     const glm::dvec3 from = inverse * (a - glm::dvec3(medium.center)), path = inverse * (b - a);
     const glm::dvec3 half(medium.half_extent);
     double enter = 0, leave = 1;
-    if (medium.box) {
+    if (medium.shape == Shape::box) {
         for (int axis = 0; axis < 3; ++axis) {
             if (std::abs(path[axis]) < 1e-12) {
                 if (std::abs(from[axis]) > half[axis]) return 0;
@@ -86,7 +85,7 @@ class VolumetricsLightVolume : public GlTest {
     TransientPool pool;
     Settings settings;
     const LocalMedium ball{.center = {1, 2, -6}, .half_extent = glm::vec3(2), .sigma_a = glm::vec3(0.4F)};
-    const LocalMedium box{.box = true,
+    const LocalMedium box{.shape = Shape::box,
                           .center = {1, 2, -6},
                           .half_extent = {1.5F, 1, 2},
                           .rotation = glm::angleAxis(0.7F, glm::normalize(glm::vec3(1, 2, 3))),
@@ -220,8 +219,8 @@ TEST_F(VolumetricsLightVolume, MediumOutOfViewDimsWhatIsInView) {
     host.global = {{.sigma_s = glm::vec3(0.01F)}};
     host.sun_direction = {0, 0, -1};
     const LocalMedium wall{
-        .box = true, .center = {0, 0, 60}, .half_extent = {40, 40, 1}, .sigma_a = glm::vec3(0.5F)};
-    for (const Technique technique : {Technique::ray_march, Technique::froxel}) {
+        .shape = Shape::box, .center = {0, 0, 60}, .half_extent = {40, 40, 1}, .sigma_a = glm::vec3(0.5F)};
+    for (const char* technique : {"ray_march", "froxel"}) {
         Settings s = small_settings(16);
         s.technique = technique;
         host.local.clear();
@@ -339,10 +338,10 @@ TEST_F(VolumetricsLightVolume, DenseMediumUnderSunAndLampAsInTheReference) {
     host.local = {
         {.center = {0, 0, -8}, .half_extent = glm::vec3(2), .softness = 0.5F, .sigma_s = glm::vec3(1.2F)}};
     Settings reference = plain_settings(1);
-    reference.technique = Technique::reference;
+    reference.technique = "reference";
     reference.reference_steps = 512;
     const Image expected = host.render(reference).scattering;
-    for (const Technique technique : {Technique::ray_march, Technique::froxel}) {
+    for (const char* technique : {"ray_march", "froxel"}) {
         Settings s = plain_settings(128);
         s.technique = technique;
         s.froxels_x = s.froxels_y = 96;
@@ -357,7 +356,7 @@ TEST_F(VolumetricsLightVolume, DenseMediumUnderSunAndLampAsInTheReference) {
                 error += std::pow(double(image.at(x, y)[0]) - expected.at(x, y)[0], 2);
                 sum += expected.at(x, y)[0];
             }
-        EXPECT_LT(std::sqrt(error / 576) / (sum / 576), 0.04) << static_cast<int>(technique);
+        EXPECT_LT(std::sqrt(error / 576) / (sum / 576), 0.04) << technique;
     }
 }
 

@@ -9,9 +9,7 @@
 namespace tyndall::test {
 namespace {
 
-using volumetrics::Technique;
-
-class VolumetricsLocalMedia : public GlTest, public testing::WithParamInterface<Technique> {
+class VolumetricsLocalMedia : public GlTest, public testing::WithParamInterface<std::string> {
   protected:
     VolumetricsLocalMedia() {
         host.size = {16, 16};
@@ -39,11 +37,10 @@ class VolumetricsLocalMedia : public GlTest, public testing::WithParamInterface<
     }
 };
 
-INSTANTIATE_TEST_SUITE_P(Techniques, VolumetricsLocalMedia,
-                         testing::Values(Technique::ray_march, Technique::froxel), [](const auto& info) {
-                             return volumetrics::technique_names().at(static_cast<std::size_t>(info.param));
-                         });
+INSTANTIATE_TEST_SUITE_P(Techniques, VolumetricsLocalMedia, testing::Values("ray_march", "froxel"),
+                         [](const auto& info) { return info.param; });
 
+// A hard rim is as fine as a froxel, 0.2 m deep: a pixel's transmittance, 0.2 in the middle, is up to 0.027 off.
 TEST_P(VolumetricsLocalMedia, SphereHasTheOpticalDepthOfItsShape) {
     for (const auto distribution :
          {volumetrics::DepthDistribution::linear, volumetrics::DepthDistribution::exponential}) {
@@ -56,13 +53,17 @@ TEST_P(VolumetricsLocalMedia, SphereHasTheOpticalDepthOfItsShape) {
             Settings settings = fine_settings();
             settings.froxel_distribution = distribution;
             const Frame frame = host.render(settings);
+            double mean_error = 0;
             for (int y = 0; y < 16; ++y)
                 for (int x = 0; x < 16; ++x) {
                     const double length = sphere_length(x, 15 - y, softness);
-                    for (int c = 0; c < 3; ++c)
-                        EXPECT_NEAR(frame.transmittance.at(x, y)[c], std::exp(-(0.2 + 0.1 * c) * length),
-                                    softness > 0 ? 0.01 : 0.05);
+                    for (int c = 0; c < 3; ++c) {
+                        const double expected = std::exp(-(0.2 + 0.1 * c) * length);
+                        EXPECT_NEAR(frame.transmittance.at(x, y)[c], expected, softness > 0 ? 0.005 : 0.03);
+                        mean_error += (frame.transmittance.at(x, y)[c] - expected) / (16 * 16 * 3);
+                    }
                 }
+            EXPECT_NEAR(mean_error, 0, softness > 0 ? 3e-4 : 2e-3);
         }
     }
 }
@@ -72,7 +73,7 @@ TEST_P(VolumetricsLocalMedia, MediaAddAndAnisotropyIsAveragedByScattering) {
     host.sun_direction = {0, 0, 1};  // straight into the eye
     host.sun_illuminance = glm::vec3(1000);
     host.size = {1, 1};
-    const LocalMedium box{.box = true, .center = {0, 0, -10}, .half_extent = glm::vec3(3)};
+    const LocalMedium box{.shape = Shape::box, .center = {0, 0, -10}, .half_extent = glm::vec3(3)};
     LocalMedium forward = box, backward = box;
     forward.sigma_s = glm::vec3(0.003F);
     forward.anisotropy = 0.6F;
@@ -88,8 +89,10 @@ TEST_P(VolumetricsLocalMedia, MediaAddAndAnisotropyIsAveragedByScattering) {
 TEST_P(VolumetricsLocalMedia, LocalAndGlobalMediaAdd) {
     host.ambient = glm::vec3(1);
     host.global = {{.sigma_s = glm::vec3(0.02F), .anisotropy = 0.5F}};
-    host.local = {
-        {.box = true, .half_extent = glm::vec3(100), .sigma_s = glm::vec3(0.03F), .sigma_a = glm::vec3(0.01F)}};
+    host.local = {{.shape = Shape::box,
+                   .half_extent = glm::vec3(100),
+                   .sigma_s = glm::vec3(0.03F),
+                   .sigma_a = glm::vec3(0.01F)}};
     host.size = {1, 1};
     const Frame frame = host.render(fine_settings());
     EXPECT_NEAR(frame.transmittance.at(0, 0)[0], std::exp(-0.06 * 20), 2e-3);
@@ -98,8 +101,8 @@ TEST_P(VolumetricsLocalMedia, LocalAndGlobalMediaAdd) {
 
 TEST_P(VolumetricsLocalMedia, EmissionIsSummed) {
     host.size = {1, 1};
-    host.local = {{.box = true, .half_extent = glm::vec3(100), .emission = {0.1F, 0.2F, 0.3F}},
-                  {.box = true, .half_extent = glm::vec3(100), .emission = {0.3F, 0.2F, 0.1F}}};
+    host.local = {{.shape = Shape::box, .half_extent = glm::vec3(100), .emission = {0.1F, 0.2F, 0.3F}},
+                  {.shape = Shape::box, .half_extent = glm::vec3(100), .emission = {0.3F, 0.2F, 0.1F}}};
     const Frame frame = host.render(fine_settings());
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(frame.scattering.at(0, 0)[c], 0.4 * 20, 0.02);
     EXPECT_EQ(frame.transmittance.at(0, 0)[0], 1);
@@ -108,7 +111,7 @@ TEST_P(VolumetricsLocalMedia, EmissionIsSummed) {
 TEST_P(VolumetricsLocalMedia, NothingIsLeftBehindTheFroxelVolume) {
     host.size = {1, 1};
     host.view_depth = [](int, int) { return 100.0F; };
-    host.local = {{.box = true, .half_extent = glm::vec3(1000), .sigma_a = glm::vec3(0.05F)}};
+    host.local = {{.shape = Shape::box, .half_extent = glm::vec3(1000), .sigma_a = glm::vec3(0.05F)}};
     Settings settings = fine_settings();
     settings.steps = 1024;
     EXPECT_NEAR(host.render(settings).transmittance.at(0, 0)[0], std::exp(-0.05 * 40), 2e-3);
@@ -125,7 +128,7 @@ TEST_P(VolumetricsLocalMedia, TilesLoseNoMedium) {
     std::vector<LocalMedium> all;
     for (int i = 0; i < 70; ++i) {
         const float angle = 2.4F * static_cast<float>(i), distance = 0.6F * static_cast<float>(i);
-        all.push_back({.box = i % 2 == 0,
+        all.push_back({.shape = i % 2 == 0 ? Shape::box : Shape::ellipsoid,
                        .center = {0.3F * distance * std::cos(angle), 0.3F * distance * std::sin(angle), -distance},
                        .half_extent = {0.3F + 0.05F * static_cast<float>(i), 0.5F, 0.8F},
                        .rotation = glm::angleAxis(angle, glm::normalize(glm::vec3(1, 2, 3))),

@@ -219,7 +219,7 @@ TEST_F(VolumetricsNoise, OnlyTheTextureThatIsChosenIsHeld) {
         EXPECT_EQ(source.bytes(), std::ranges::count(textures, noise) > 0 ? texture : (tile ? 8 * 8 * 4U : 0U));
     }
     Settings settings = with(Noise::stbn);
-    settings.technique = volumetrics::Technique::froxel;  // samples no noise
+    settings.technique = "froxel";  // samples no noise
     source.prepare(settings);
     EXPECT_EQ(source.bytes(), 0U);
 }

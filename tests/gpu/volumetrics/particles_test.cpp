@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <tuple>
 #include <utility>
 
 #include "tests/gpu/support/gl_test.h"
@@ -17,7 +18,7 @@ using ::testing::ElementsAre;
 class VolumetricsParticles : public GlTest {
   protected:
     VolumetricsParticles() {
-        s.technique = volumetrics::Technique::particles;
+        s.technique = "particles";
         s.particle_count = 4096;
         host.size = {48, 32};
         host.view_depth = [](int, int) { return 30.0F; };
@@ -46,7 +47,7 @@ class VolumetricsParticles : public GlTest {
     /// A box that fills the view, with its front at 10 m and its back at 20 m.
     void box_in_view(float sigma_s, float sigma_a) {
         host.vertical_fov = 0.4F;
-        host.local = {{.box = true,
+        host.local = {{.shape = Shape::box,
                        .center = {0, 0, -15},
                        .half_extent = {10, 8, 5},
                        .sigma_s = glm::vec3(sigma_s),
@@ -128,13 +129,23 @@ TEST_F(VolumetricsParticles, LocalMediaTakeAwayWhatBeerLambertSays) {
 }
 
 TEST_F(VolumetricsParticles, LocalMediaUnderEqualLightGainAndLoseNothing) {
+    // What is scattered and what comes through are 1 together, wherever discs overlap. Their sum in half floats is
+    // up to 3% too bright in a pixel and 0.9% in the mean.
     host.ambient = glm::vec3(1);
-    for (const float sigma_s : {0.02F, 0.3F, 50.0F}) {
+    s.particle_local_count = 8192;
+    for (const auto& [sigma_s, worst, mean] :
+         {std::tuple(0.02F, 0.008, 0.001), {0.3F, 0.02, 0.005}, {50.0F, 0.035, 0.012}}) {
         box_in_view(sigma_s, 0);
         host.global = {{.sigma_s = glm::vec3(0.01F)}};
         const Frame frame = host.render(s);
-        for (int i = 0; i < 48 * 32; ++i)
-            ASSERT_NEAR(frame.scattering.pixels[4 * i] + frame.transmittance.pixels[3 * i], 1, 0.08) << sigma_s;
+        double sum = 0;
+        for (int i = 0; i < 48 * 32; ++i) {
+            const double energy = frame.scattering.pixels[4 * i] + frame.transmittance.pixels[3 * i];
+            ASSERT_NEAR(energy, 1, worst) << sigma_s;
+            sum += energy / (48 * 32);
+        }
+        EXPECT_NEAR(sum, 1, mean) << sigma_s;
+        EXPECT_LT(mean_and_deviation(frame.transmittance).x, std::exp(-sigma_s * 10));  // and the global medium
     }
 }
 
@@ -290,7 +301,7 @@ TEST_F(VolumetricsParticles, PassesWorkAndMemory) {
     host.size = {96, 64};
     EXPECT_EQ(host.render(s).work.at("volumetrics/particles_simulate")[int(gl::Work::shadow_lookups)], lookups);
     EXPECT_GT(frame.persistent_bytes, 4000U * 48);
-    s.technique = volumetrics::Technique::ray_march;
+    s.technique = "ray_march";
     EXPECT_LT(host.render(s).persistent_bytes, 20000U);
     host.global.clear();
     EXPECT_EQ(host.render(s).persistent_bytes, 0U);

@@ -2,10 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <chrono>
 #include <cstdio>
-#include <cstdlib>
-#include <map>
-#include <set>
 
 #include "engine/core/error.h"
 #include "engine/core/files.h"
@@ -48,7 +46,7 @@ TEST_F(VolumetricsPasses, WithoutMediumNothingIsAddedOrHeld) {
 TEST_F(VolumetricsPasses, TechniqueOffIsAsIfThereWereNoMedium) {
     host.global = {fog};
     Settings settings;
-    settings.technique = volumetrics::Technique::off;
+    settings.technique = "off";
     const Frame frame = host.render(settings);
     EXPECT_THAT(frame.live_passes, IsEmpty());
     EXPECT_EQ(frame.skipped.at("volumetrics/march"), "technique is off");
@@ -79,34 +77,25 @@ TEST_F(VolumetricsPasses, MoreHeightMediaThanTheBlockHoldsAreAnError) {
     EXPECT_THROW(host.render(Settings{}), Error);
 }
 
-// Of programs with over a hundred permutations every seventh, unless TYNDALL_ALL_PERMUTATIONS is set: all take
-// minutes with a cold shader cache. The step has no factor in common with the lengths of the axes, so that it meets
-// all their values.
+constexpr std::size_t most_permutations = 868;
+
 TEST_F(VolumetricsPasses, EveryPermutationBuilds) {
-    const bool all = std::getenv("TYNDALL_ALL_PERMUTATIONS") != nullptr;
     ShaderLibrary engine_lighting(data_root());
-    std::size_t built = 0, there = 0;
+    std::size_t built = 0;
+    const auto start = std::chrono::steady_clock::now();
     for (const ProgramDesc* desc : ProgramRegistry::all()) {
         if (!desc->name.starts_with("volumetrics/")) continue;
-        std::vector<Permutation> permutations = all_permutations(*desc);
-        // What counts its work is the same text and more; without it all other tests build.
-        std::erase_if(permutations,
-                      [](const Permutation& p) { return p.contains("COUNT_WORK") && p.at("COUNT_WORK") == 0; });
-        const std::size_t step = all || permutations.size() <= 100 ? 1 : 7;
-        std::map<std::string, std::set<int>> values;
-        for (std::size_t i = 0; i < permutations.size(); i += step) {
-            EXPECT_NO_THROW((void)engine_lighting.get(*desc, permutations[i]));
-            for (const auto& [axis, value] : permutations[i]) values[axis].insert(value);
+        for (const Permutation& permutation : all_permutations(*desc)) {
+            // What counts its work is the same text and more; without it all other tests build.
+            if (permutation.contains("COUNT_WORK") && permutation.at("COUNT_WORK") == 0) continue;
+            EXPECT_NO_THROW((void)engine_lighting.get(*desc, permutation));
             ++built;
         }
-        for (const Permutation& permutation : permutations)
-            for (const auto& [axis, value] : permutation)
-                EXPECT_TRUE(values[axis].contains(value)) << axis << value;
-        there += permutations.size();
     }
-    std::printf("%zu of %zu permutations built\n", built, there);
+    const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
+    std::printf("%zu permutations built in %.0f s\n", built, time.count());
     EXPECT_GT(built, 100U);
-    EXPECT_LE(there, 900U);
+    EXPECT_LE(built, most_permutations);
 }
 
 TEST_F(VolumetricsPasses, WorkIsCountedExactly) {

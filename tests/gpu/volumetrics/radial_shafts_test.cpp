@@ -14,7 +14,6 @@ namespace {
 
 using ::testing::ElementsAre;
 using volumetrics::RadialOcclusion;
-using volumetrics::Technique;
 
 constexpr std::array both{RadialOcclusion::coverage, RadialOcclusion::intervals};
 
@@ -27,11 +26,11 @@ class RadialShafts : public GlTest {
     }
     [[nodiscard]] static Settings settings(RadialOcclusion occlusion) {
         Settings settings = plain_settings(1);
-        settings.technique = Technique::radial_shafts;
+        settings.technique = "radial_shafts";
         settings.radial_occlusion = occlusion;
         return settings;
     }
-    [[nodiscard]] Frame fog(Technique technique = Technique::analytic_fog) {
+    [[nodiscard]] Frame fog(const std::string& technique = "analytic_fog") {
         Settings settings = plain_settings(1);
         settings.technique = technique;
         return host.render(settings);

@@ -17,7 +17,7 @@ constexpr double pi = std::numbers::pi;
 
 Settings reference_settings(int steps = 1024) {
     Settings settings;  // dither and blur as they are by default: they must not matter
-    settings.technique = volumetrics::Technique::reference;
+    settings.technique = "reference";
     settings.reference_steps = steps;
     return settings;
 }
@@ -41,7 +41,7 @@ double relative_rmse(const Image& image, const Image& expected) {
 }
 
 /// A turned box or sphere in double precision, by planes and by the quadratic, not as the shaders do.
-struct Shape {
+struct Solid {
     bool box;
     glm::dvec3 center, half;
     glm::dquat rotation{1, 0, 0, 0};
@@ -83,7 +83,7 @@ struct Shape {
                integrate_panels([&](double s) { return density(from + path * s); }, enter, leave, 16);
     }
     [[nodiscard]] LocalMedium medium(float sigma_s, float sigma_a, float g = 0) const {
-        return {.box = box,
+        return {.shape = box ? Shape::box : Shape::ellipsoid,
                 .center = center,
                 .half_extent = half,
                 .rotation = rotation,
@@ -94,11 +94,11 @@ struct Shape {
     }
 };
 
-const Shape turned_box{.box = true,
+const Solid turned_box{.box = true,
                        .center = {0.3, -0.2, -6},
                        .half = {1.5, 1, 2},
                        .rotation = glm::angleAxis(0.7, glm::normalize(glm::dvec3(1, 2, 3)))};
-const Shape ball{.box = false, .center = {0.3, -0.2, -6}, .half = glm::dvec3(2)};
+const Solid ball{.box = false, .center = {0.3, -0.2, -6}, .half = glm::dvec3(2)};
 
 class VolumetricsReference : public GlTest {
   protected:
@@ -109,7 +109,7 @@ class VolumetricsReference : public GlTest {
 
     /// Red radiance of what one shape scatters of light whose strength at a point, phase included, is `light`.
     template <class Light>
-    [[nodiscard]] static double scattered(const Shape& shape, double sigma_s, double sigma_t, glm::dvec3 direction,
+    [[nodiscard]] static double scattered(const Solid& shape, double sigma_s, double sigma_t, glm::dvec3 direction,
                                           double end, const Light& light) {
         const auto integrand = [&](double t) {
             const glm::dvec3 point = direction * t;
@@ -188,7 +188,7 @@ TEST_F(VolumetricsReference, TailBehindTheSamplesIsClosed) {
 // By hand: the sun stands above a box whose top is 1.5 m over the ray, which crosses 4 m of it.
 TEST_F(VolumetricsReference, SunIsAttenuatedInsideABox) {
     host.has_sun = true;
-    host.local = {{.box = true,
+    host.local = {{.shape = Shape::box,
                    .center = {0, 0.5F, -8},
                    .half_extent = {1, 1, 2},
                    .sigma_s = glm::vec3(0.5F),
@@ -214,9 +214,9 @@ TEST_F(VolumetricsReference, ShapesAgreeWithQuadrature) {
     host.sun_direction = glm::normalize(glm::vec3(0.6F, -0.5F, -0.4F));
     host.sun_illuminance = glm::vec3(100);
     const glm::dvec3 to_sun = -host.sun_direction;
-    Shape soft_ball = ball;
+    Solid soft_ball = ball;
     soft_ball.softness = 0.8;
-    for (const Shape& shape : {turned_box, ball, soft_ball}) {
+    for (const Solid& shape : {turned_box, ball, soft_ball}) {
         host.local = {shape.medium(0.4F, 0.2F, 0.3F)};
         const Frame frame = host.render(reference_settings());
         for (int y = 0; y < 4; ++y)
@@ -235,7 +235,8 @@ TEST_F(VolumetricsReference, MediumOutOfViewStandsBetweenSunAndView) {
     host.has_sun = true;
     host.global = {{.sigma_s = glm::vec3(0.01F)}};
     const double clear = host.render(reference_settings(64)).scattering.at(0, 0)[0];
-    host.local = {{.box = true, .center = {0, 60, 0}, .half_extent = {90, 2, 90}, .sigma_a = glm::vec3(0.25F)}};
+    host.local = {
+        {.shape = Shape::box, .center = {0, 60, 0}, .half_extent = {90, 2, 90}, .sigma_a = glm::vec3(0.25F)}};
     EXPECT_LE(relative(host.render(reference_settings(64)).scattering.at(0, 0)[0], clear * std::exp(-1.0)), 1e-5);
 }
 
@@ -280,11 +281,11 @@ TEST_F(VolumetricsReference, LampLightIsAttenuatedByShapes) {
     host.vertical_fov = 0.5F;
     const glm::dvec3 lamp(2.8, 1.5, -5);
     host.lights = {point_light(lamp, 1000)};
-    Shape soft_ball = ball;
+    Solid soft_ball = ball;
     soft_ball.softness = 0.8;
     Settings settings = reference_settings();
     settings.reference_light_steps = 64;
-    for (const Shape& shape : {turned_box, soft_ball}) {
+    for (const Solid& shape : {turned_box, soft_ball}) {
         host.local = {shape.medium(0.4F, 0.2F)};
         const Frame frame = host.render(settings);
         for (int y = 0; y < 4; ++y)

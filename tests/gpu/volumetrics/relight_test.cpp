@@ -1,4 +1,4 @@
-// The setting reconstruct = visibility.
+// The setting reconstruct = visibility, judged by the technique reference.
 
 #include <cmath>
 
@@ -38,6 +38,12 @@ class VolumetricsRelight : public GlTest {
         host.lights = {point_light({0.3F, 0.2F, -4}, 20), point_light({-1, 0.5F, -6}, 30, 3)};
         host.lights[1].intensity_radius = {5, 20, 0, 0.01F};
     }
+    /// The same media and lights by the technique reference, attenuated as `like` says.
+    Frame truth(const Settings& like = {}) {
+        Settings settings = like;
+        settings.technique = "reference";
+        return host.render(settings);
+    }
     /// Largest difference of two pictures, relative to the value (and to `least`).
     static double largest(const Image& a, const Image& b, float least = 1e-4F) {
         double worst = 0;
@@ -57,33 +63,28 @@ class VolumetricsRelight : public GlTest {
 // Three half-float roundings: 3 / 2048.
 constexpr double rounding = 2e-3;
 
-TEST_F(VolumetricsRelight, LitSceneIsAsSharpAsWithoutAFilter) {
+TEST_F(VolumetricsRelight, LitSceneIsExactInSpiteOfTheFilter) {
     light_everything();
     host.view_depth = [](int x, int y) { return x < 10 ? 6.0F : y < 6 ? sky : 15.0F; };
     for (const glm::vec3 sigma_a : {glm::vec3(0.01F), glm::vec3(0, 0.02F, 0.1F)}) {
         host.global[0].sigma_a = sigma_a;
-        Settings sharp = filtered(Reconstruct::light);
-        sharp.filter = Filter::none;
-        sharp.noise = volumetrics::Noise::none;
-        const Frame expected = host.render(sharp);
+        const Frame expected = truth();
         const Frame frame = host.render(filtered(Reconstruct::visibility));
         EXPECT_LE(largest(frame.scattering, expected.scattering), rounding);
-        EXPECT_LE(largest(frame.transmittance, expected.transmittance), 1e-6);
+        EXPECT_LE(largest(frame.transmittance, expected.transmittance), 1e-3);
         // The glow of the lamps is what the filter takes away elsewhere.
         EXPECT_GT(largest(host.render(filtered(Reconstruct::light)).scattering, expected.scattering), 0.1);
     }
 }
 
 TEST_F(VolumetricsRelight, EachLightAloneIsExactToo) {
-    Settings sharp = filtered(Reconstruct::light);
-    sharp.filter = Filter::none;
     for (const bool sun : {true, false}) {
         light_everything();
         host.has_sun = sun;
         if (sun) host.lights.clear();
-        const Frame expected = host.render(sharp);
-        EXPECT_LE(largest(host.render(filtered(Reconstruct::visibility)).scattering, expected.scattering),
-                  rounding);
+        // The closed form of lamps in 4 segments is 0.4% off.
+        EXPECT_LE(largest(host.render(filtered(Reconstruct::visibility)).scattering, truth().scattering),
+                  sun ? rounding : 5e-3);
     }
 }
 
@@ -97,10 +98,9 @@ TEST_F(VolumetricsRelight, WhatIsInShadowScattersAmbientLightOnly) {
     host.vertical_fov = 0.2F;
     host.has_sun = false;
     const Frame frame = host.render(filtered(Reconstruct::visibility));
+    EXPECT_LE(largest(frame.scattering, truth().scattering), rounding);
     host.lights.clear();
-    Settings settings = filtered(Reconstruct::light);
-    settings.filter = Filter::none;
-    EXPECT_LE(largest(frame.scattering, host.render(settings).scattering), rounding);
+    EXPECT_LE(largest(frame.scattering, truth().scattering), rounding);
 }
 
 TEST_F(VolumetricsRelight, ShadowEdgesHaveNoMoreErrorThanFilteredLight) {
@@ -108,8 +108,7 @@ TEST_F(VolumetricsRelight, ShadowEdgesHaveNoMoreErrorThanFilteredLight) {
     host.ambient = glm::vec3(0);
     for (const int shadows : {1, 2, 3}) {
         host.shadows = shadows;
-        Settings truth = plain_settings(64);
-        const Image expected = host.render(truth).scattering;
+        const Image expected = truth().scattering;
         const double light = squared_error(host.render(filtered(Reconstruct::light)).scattering, expected);
         const double visibility =
             squared_error(host.render(filtered(Reconstruct::visibility)).scattering, expected);
@@ -120,15 +119,14 @@ TEST_F(VolumetricsRelight, ShadowEdgesHaveNoMoreErrorThanFilteredLight) {
 TEST_F(VolumetricsRelight, PixelsWithoutLightDoNotDimTheirNeighbours) {
     // A spot whose cone ends inside the picture: outside of it there is no light and no visibility.
     host.lights = {spot_light({0, 2, -5}, {0, -1, 0}, 50, 0.95F, 0.9F)};
-    Settings sharp = filtered(Reconstruct::light);
-    sharp.filter = Filter::none;
-    const Image expected = host.render(sharp).scattering;
+    const Image expected = truth().scattering;
     const Image image = host.render(filtered(Reconstruct::visibility)).scattering;
     int dark = 0;
     for (int y = 0; y < 16; ++y)
         for (int x = 0; x < 24; ++x) {
             dark += expected.at(x, y)[0] == 0;
-            EXPECT_NEAR(image.at(x, y)[0], expected.at(x, y)[0], rounding * expected.at(x, y)[0] + 1e-5)
+            // The closed form of the cone's edge in 4 segments is up to 1.6% off.
+            EXPECT_NEAR(image.at(x, y)[0], expected.at(x, y)[0], 0.02 * expected.at(x, y)[0] + 1e-5)
                 << x << ' ' << y;
         }
     EXPECT_GT(dark, 25);
@@ -152,16 +150,15 @@ TEST_F(VolumetricsRelight, ExtremesStayFiniteAndInRange) {
 }
 
 TEST_F(VolumetricsRelight, LocalMediaAreSampledSliceBySlice) {
-    // A box of fog in fog, all lit: within the froxels' resolution of 256 steps; the filter leaves no error of its
-    // own.
+    // A box of fog in fog, all lit: the filter leaves less error than of the light.
     light_everything();
     host.local.resize(1);
-    host.local[0].box = true;
+    host.local[0].shape = Shape::box;
     host.local[0].center = {1, 0, -8};
     host.local[0].half_extent = {2, 1, 2};
     host.local[0].sigma_s = glm::vec3(0.3F);
     host.view_depth = [](int, int) { return 20.0F; };
-    const Image expected = host.render(plain_settings(64)).scattering;
+    const Image expected = truth().scattering;
     const double light = squared_error(host.render(filtered(Reconstruct::light)).scattering, expected);
     const double visibility = squared_error(host.render(filtered(Reconstruct::visibility)).scattering, expected);
     EXPECT_LT(visibility, light);
@@ -178,7 +175,7 @@ class VolumetricsRuns : public VolumetricsRelight {
         host.view_depth = [](int, int) { return 20.0F; };
     }
     static LocalMedium box(glm::vec3 center, glm::vec3 half_extent, float sigma) {
-        return {.box = true,
+        return {.shape = Shape::box,
                 .center = center,
                 .half_extent = half_extent,
                 .sigma_s = glm::vec3(0.8F * sigma),
@@ -189,14 +186,6 @@ class VolumetricsRuns : public VolumetricsRelight {
         settings.steps = steps;
         settings.froxel_distribution = volumetrics::DepthDistribution::linear;
         settings.froxel_far = 40;
-        return settings;
-    }
-    static Settings fine(const Settings& like) {
-        Settings settings = like;
-        settings.steps = 192;
-        settings.noise = volumetrics::Noise::none;
-        settings.filter = Filter::none;
-        settings.reconstruct = Reconstruct::light;
         return settings;
     }
     /// Medium samples a pixel.
@@ -226,28 +215,38 @@ TEST_F(VolumetricsRuns, MediumThatFillsAllIsTheClosedFormInAnyNumberOfSteps) {
     }
 }
 
-TEST_F(VolumetricsRuns, EachMediumIsThatOfTheFineMarch) {
+TEST_F(VolumetricsRuns, EachMediumIsThatOfTheReference) {
     const float slice = 39.9F / 64;  // the froxels begin at the near plane, 0.1 m
     LocalMedium soft = box({0.5F, 0, 0}, {3, 3, 3}, 0.3F);
     soft.softness = 1;
-    const std::vector<std::vector<LocalMedium>> cases{
-        {box({0, 0, -0.1F - 12.5F * slice}, {2, 1.5F, 0.4F * slice}, 0.4F)},    // in one slice
-        {box({-5, 1, -8}, {1.5F, 1.5F, 1.5F}, 0.2F)},                           // over the screen's border
-        {soft},                                                                 // round the camera
-        {box({0, 0, -5}, {9, 9, 1}, 0.3F), box({1, 0, -14}, {4, 4, 2}, 0.2F)},  // with a gap
-        {box({0, 0, -30}, {9, 9, 9}, 0.3F)},                                    // goes on behind the surface
+    // Root mean square over the mean of red; what froxels leave of the rims of boxes, and the sun's volume of its
+    // light, is most of them.
+    struct Case {
+        std::vector<LocalMedium> media;
+        double tolerance, with_attenuation;
+    };
+    const std::vector<Case> cases{
+        {{box({0, 0, -0.1F - 12.5F * slice}, {2, 1.5F, 0.4F * slice}, 0.4F)}, 0.011, 0.01},  // in one slice
+        {{box({-5, 1, -8}, {1.5F, 1.5F, 1.5F}, 0.2F)}, 0.003, 0.0035},  // over the screen's border
+        {{soft}, 0.002, 0.003},                                         // round the camera
+        {{box({0, 0, -5}, {9, 9, 1}, 0.3F), box({1, 0, -14}, {4, 4, 2}, 0.2F)}, 0.009, 0.035},  // with a gap
+        {{box({0, 0, -30}, {9, 9, 9}, 0.3F)}, 5e-4, 0.005},  // goes on behind the surface
     };
     for (std::size_t i = 0; i < cases.size(); ++i) {
-        host.local = cases[i];
+        host.local = cases[i].media;
         for (const bool attenuation : {false, true}) {
             Settings settings = coarse(4);
             settings.light_transmittance = attenuation;
-            const Frame expected = host.render(fine(settings));
-            const Frame frame = host.render(settings);
-            // What media leave of the sun is linear over a run: 4% in the worst pixel of the thin medium.
-            EXPECT_LE(largest(frame.scattering, expected.scattering), attenuation ? 0.05 : 0.02)
+            const Frame expected = truth(settings), frame = host.render(settings);
+            double red = 0;
+            for (std::size_t k = 0; k < expected.scattering.pixels.size(); k += 4)
+                red += 4 * expected.scattering.pixels[k];
+            const auto values = static_cast<double>(expected.scattering.pixels.size());
+            EXPECT_LE(std::sqrt(squared_error(frame.scattering, expected.scattering) / values) / (red / values),
+                      attenuation ? cases[i].with_attenuation : cases[i].tolerance)
                 << i << attenuation;
-            EXPECT_LE(largest(frame.transmittance, expected.transmittance), 0.02) << i << attenuation;
+            EXPECT_LE(largest(frame.scattering, expected.scattering), 0.1) << i << attenuation;
+            EXPECT_LE(largest(frame.transmittance, expected.transmittance), 0.1) << i << attenuation;
         }
     }
 }
@@ -258,7 +257,10 @@ TEST_F(VolumetricsRuns, VisibilityIsSampledWhereTheLightComesFrom) {
     host.vertical_fov = 0.002F;
     host.ambient = glm::vec3(0);
     host.shadows = 1;
-    host.local = {box({0, 0, -5}, {9, 9, 1}, 0.3F), box({1, 0, -13}, {4, 4, 0.5F}, 0.4F)};
+    // Boxes of whole slices: of others the froxels would make thinner or thicker ones.
+    const float slice = 39.9F / 64;
+    host.local = {box({0, 0, -0.1F - 8 * slice}, {9, 9, 2 * slice}, 0.3F),
+                  box({1, 0, -0.1F - 21 * slice}, {4, 4, slice}, 0.4F)};
     host.global = {{.sigma_s = glm::vec3(0.02F)},
                    {.sigma_s = glm::vec3(0.1F), .height = true, .base = -3, .falloff = 3}};
     const auto mean = [](const Image& image) {
@@ -270,7 +272,7 @@ TEST_F(VolumetricsRuns, VisibilityIsSampledWhereTheLightComesFrom) {
         for (const int steps : {1, 2, 5}) {
             Settings settings = coarse(steps);
             settings.light_transmittance = attenuation;
-            const double expected = mean(host.render(fine(settings)).scattering);
+            const double expected = mean(truth(settings).scattering);
             EXPECT_NEAR(mean(host.render(settings).scattering), expected, 0.025 * expected) << steps << attenuation;
         }
     }
@@ -288,7 +290,7 @@ TEST_F(VolumetricsRuns, VisibilityFollowsTheDensityOfAHeightMedium) {
     Settings settings = coarse(1);
     settings.light_transmittance = false;
     const auto expect_alike = [&](const Settings& once, double tolerance) {
-        const Image expected = host.render(fine(settings)).scattering, image = host.render(once).scattering;
+        const Image expected = truth(once).scattering, image = host.render(once).scattering;
         double difference = 0, sum = 0;
         for (int y = 0; y < 8; ++y)
             for (int x = 0; x < 32; ++x) {

@@ -23,7 +23,7 @@ class VolumetricsShaftGeometry : public GlTest {
     Settings settings = plain_settings(1);
 
     void SetUp() override {
-        settings.technique = volumetrics::Technique::shaft_geometry;
+        settings.technique = "shaft_geometry";
         settings.shaft_grid = 64;
         settings.max_distance = 400;  // a ray to the sky is integrated as far
         host.size = {32, 18};

@@ -11,7 +11,7 @@ TEST_F(VolumetricsTemporal, NothingStaleAfterAChange) {
     std::vector<Settings> changes(4, first);
     changes[0].temporal = Temporal::ema;
     changes[1].temporal_place = TemporalPlace::before;
-    changes[2].technique = volumetrics::Technique::particles;
+    changes[2].technique = "particles";
     changes[3].resolution = volumetrics::Resolution::half;
     for (const Settings& change : changes) {
         after(2, first);

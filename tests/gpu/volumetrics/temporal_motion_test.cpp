@@ -31,10 +31,12 @@ TEST_F(VolumetricsTemporal, AcceptanceFallsWithTheDistanceToWhatWasSeen) {
         }
     Settings s = settings(Temporal::acceptance);
     s.temporal_scale = 100;
-    for (const float eye : {0.0F, -0.004F, -0.008F}) {
-        host.eye = {0, 0, eye};
-        host.view_depth = [eye](int, int) { return 5 + eye; };
-        EXPECT_GT(accepted(s), eye == 0 ? -1 : 0.999);
+    host.view_depth = [](int, int) { return 5.0F; };
+    EXPECT_EQ(accepted(s), 0) << "nothing was before";
+    for (const float walk : {0.004F, 0.008F}) {
+        host.eye = {0, 0, -walk};
+        host.view_depth = [walk](int, int) { return 5 - walk; };
+        EXPECT_GT(accepted(s), 0.999) << walk;
     }
 }
 

@@ -8,10 +8,14 @@
 
 #include "reference/media_ray.h"
 #include "shaders/lib/glm_subset.h"
+#include "shaders/shared/volumetrics.h"
 #include "tests/unit/shader_lib/quadrature.h"
 
+namespace tyndall::glsl {
+using shared::LocalMedium;
+}
 TYNDALL_GLSL_BEGIN
-#include "shaders/lib/media_shape.glsl"
+#include "shaders/volumetrics/media/shape.glsl"
 TYNDALL_GLSL_END
 
 namespace tyndall::reference {
@@ -32,7 +36,7 @@ Medium medium(Shape shape, float sigma_s = 0.3f, float sigma_a = 0.2f) {
 Medium sphere(glm::vec3 center, float radius, float softness = 0) {
     Medium m = medium(Shape::sphere);
     m.center = center;
-    m.radii = glm::vec3(radius);
+    m.half_extent = glm::vec3(radius);
     m.softness = softness;
     return m;
 }
@@ -40,7 +44,7 @@ Medium sphere(glm::vec3 center, float radius, float softness = 0) {
 Medium box(glm::vec3 center, glm::vec3 size, float softness = 0) {
     Medium m = medium(Shape::box);
     m.center = center;
-    m.size = size;
+    m.half_extent = 0.5f * size;
     m.softness = softness;
     return m;
 }
@@ -80,7 +84,7 @@ TEST(ReferenceMedia, RotatedBox) {
     Medium m = box({0, 0, 0}, {2, 2, 2});
     m.rotation = glm::angleAxis(glm::radians(45.0f), glm::vec3(0, 1, 0));
     EXPECT_NEAR(depth({m}, dvec3(-9, 0, 0), dvec3(1, 0, 0), 0, infinity), sigma * 2 * std::sqrt(2.0), 1e-6);
-    m.size = {2, 2, 8};  // its long axis now points at +x +z
+    m.half_extent = {1, 1, 4};  // its long axis now points at +x +z
     const dvec3 along = glm::normalize(dvec3(1, 0, 1));
     EXPECT_NEAR(depth({m}, -9.0 * along, along, 0, infinity), sigma * 8, 1e-6);
 }
@@ -95,7 +99,7 @@ TEST(ReferenceMedia, HardSphereIsItsChord) {
 
 TEST(ReferenceMedia, EllipsoidIsASphereOfStretchedSpace) {
     Medium m = medium(Shape::ellipsoid);
-    m.radii = {1, 2, 3};
+    m.half_extent = {1, 2, 3};
     const dvec3 d = glm::normalize(dvec3(0.3, 1, -2));
     const dvec3 p = dvec3(0.2, -0.1, 0.4);
     // |(p + t d) / r| = 1
@@ -133,7 +137,7 @@ TEST(ReferenceMedia, SoftRimsAgainstFineQuadrature) {
     std::mt19937 random(4);
     std::uniform_real_distribution<double> unit(-1, 1);
     Medium flat = medium(Shape::ellipsoid);
-    flat.radii = {1.2f, 0.5f, 2};
+    flat.half_extent = {1.2f, 0.5f, 2};
     flat.softness = 0.3f;
     Medium profiled = box({0, 0, 0}, {2, 3, 2}, 0.4f);
     profiled.height_profile = true;
@@ -211,8 +215,7 @@ TEST(ReferenceMedia, DensitiesAreTheEngines) {
     for (const Shape shape : {Shape::sphere, Shape::ellipsoid, Shape::box}) {
         Medium m = medium(shape, 1, 0);
         m.center = {0.25f, -0.5f, 1};
-        m.radii = shape == Shape::ellipsoid ? glm::vec3(1, 1.5f, 0.7f) : glm::vec3(1.3f);
-        m.size = {2, 1.5f, 2.5f};
+        m.half_extent = shape == Shape::sphere ? glm::vec3(1.3f) : glm::vec3(1, 1.5f, 0.7f);
         m.softness = 0.4f;
         m.noise_scale = 0.9f;
         m.noise_amount = 0.7f;
@@ -221,15 +224,14 @@ TEST(ReferenceMedia, DensitiesAreTheEngines) {
         m.base = 0.5f;
         m.falloff = 0.8f;
         const Media media({m});
-        const int kind = shape == Shape::box      ? glsl::MEDIA_BOX
-                         : shape == Shape::sphere ? glsl::MEDIA_SPHERE
-                                                  : glsl::MEDIA_ELLIPSOID;
+        shared::LocalMedium packed{};
+        packed.extent_softness = {m.half_extent, m.softness};
+        packed.sigma_a_shape.w = shape == Shape::box ? SHAPE_BOX : SHAPE_ELLIPSOID;
         for (int i = 0; i < 500; ++i) {
             const glm::vec3 p(unit(random), unit(random), unit(random));
-            const float expected =
-                glsl::media_shape_density(kind, p, shape == Shape::box ? 0.5f * m.size : m.radii, m.softness) *
-                glsl::media_noise(p, m.noise_scale, m.noise_amount, 3) *
-                glsl::media_height(p.y + m.center.y, m.base, m.falloff);
+            const float expected = glsl::shape_density(packed, p) *
+                                   glsl::media_noise(p, m.noise_scale, m.noise_amount, 3) *
+                                   glsl::media_height(p.y + m.center.y, m.base, m.falloff);
             EXPECT_NEAR(media.at(dvec3(p) + dvec3(m.center)).sigma_s.x, expected, 2e-5f * (1 + expected));
         }
     }

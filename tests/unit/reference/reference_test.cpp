@@ -262,7 +262,7 @@ TEST(Reference, EmissionAndAmbient) {
     World clear;
     Medium& m = clear.medium(Shape::sphere, 0, 0);
     m.emission = {1, 2, 4};
-    m.radii = glm::vec3(3);
+    m.half_extent = glm::vec3(3);
     expect_close(clear.trace(dvec3(0, 0, 9), dvec3(0, 0, -1)).scattering, 6.0 * dvec3(1, 2, 4), 1e-6);
     EXPECT_EQ(clear.trace(dvec3(0, 0, 9), dvec3(0, 0, -1)).transmittance, dvec3(1));
 }
@@ -272,7 +272,7 @@ TEST(Reference, LocalMediaAttenuateLight) {
     World w;
     w.point({0, 3, 0}, 1e4f);
     Medium& m = w.medium(Shape::box, 0.4f, 0.2f);
-    m.size = {2, 2, 8};
+    m.half_extent = {1, 1, 4};
     const double sigma_s = 0.4f, sigma_t = sigma_s + double(0.2f);
     const auto f = [&](double t) {
         const double x = t - 4, d2 = x * x + 9;
@@ -298,7 +298,7 @@ TEST(Reference, LightsAddUpAndScale) {
         w.medium(Shape::height, 0.05f, 0.01f, 0.3f);
         Medium& m = w.medium(Shape::sphere, 0.2f, 0);
         m.center = {0, 0, -4};
-        m.radii = glm::vec3(2);
+        m.half_extent = glm::vec3(2);
         m.softness = 0.5f;
         return w.trace(dvec3(0), dvec3(0, 0, -1)).scattering;
     };
@@ -331,7 +331,7 @@ TEST(Reference, ErrorEstimateHolds) {
     w.sun({0.5f, 1, 0.2f});
     w.point({0.3f, 0.4f, -4}, 8);
     Medium& m = w.medium(Shape::box, 0.3f, 0.05f, 0.4f);
-    m.size = {8, 3, 8};
+    m.half_extent = {4, 1.5f, 4};
     m.center = {0, 0, -5};
     m.softness = 0.4f;
     m.noise_scale = 1.1f;

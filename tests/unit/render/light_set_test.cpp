@@ -65,7 +65,7 @@ TEST(GpuLight, APointLampShinesAllAround) {
     EXPECT_EQ(gpu.cone_shadow.z, -1);
 }
 
-TEST(LightSet, ListsLampsInOrderAndThoseInView) {
+TEST(Lamps, AreListedInOrderAndKnowWhetherTheyAreInView) {
     Scene scene;
     const auto add = [&](LightType type, glm::vec3 position, float range, float intensity) {
         Node node;
@@ -84,10 +84,14 @@ TEST(LightSet, ListsLampsInOrderAndThoseInView) {
     add(LightType::spot, {0, 0, 5}, 10, 1);    // behind, but it reaches into view
     add(LightType::point, {0, 0, -5}, 10, 0);  // dark
     const View view = look_at({0, 0, 0}, {0, 0, -1}, 1.0f, 0.1f, 1.0f);
+    const std::vector<Lamp> lamps = find_lamps(scene, Frustum::from(view.view_projection));
+    const std::vector<std::pair<std::size_t, bool>> expected{{1, true}, {2, false}, {3, true}};
+    ASSERT_EQ(lamps.size(), expected.size());
+    for (std::size_t i = 0; i < lamps.size(); ++i)
+        EXPECT_EQ(std::pair(lamps[i].light, lamps[i].in_view), expected[i]) << i;
     LightSet lights;
-    lights.update(scene, Frustum::from(view.view_projection));
+    lights.update(scene, lamps);
     EXPECT_EQ(lights.lights().size(), 3u);
-    EXPECT_EQ(std::vector(lights.in_view().begin(), lights.in_view().end()), (std::vector<std::size_t>{1, 3}));
     lights.set_shadow_tiles([](std::size_t light) { return static_cast<int>(10 * light); });
     EXPECT_EQ(lights.lights()[2].cone_shadow.z, 30);
 }

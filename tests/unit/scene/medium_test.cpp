@@ -48,7 +48,7 @@ TEST(Medium, EveryFieldOfEveryShape) {
     EXPECT_EQ(media[1].base, -1.5f);
     EXPECT_EQ(media[1].falloff, 8);
     EXPECT_EQ(media[1].anisotropy, -0.2f);
-    EXPECT_EQ(media[2].radii, glm::vec3(2));
+    EXPECT_EQ(media[2].half_extent, glm::vec3(2));
     EXPECT_EQ(media[2].softness, 0.5f);
     EXPECT_EQ(media[2].noise_scale, 1.5f);
     EXPECT_EQ(media[2].noise_amount, 0.6f);
@@ -56,10 +56,10 @@ TEST(Medium, EveryFieldOfEveryShape) {
     EXPECT_TRUE(media[2].height_profile);
     EXPECT_EQ(media[2].falloff, 1.2f);
     EXPECT_EQ(media[3].shape, Medium::Shape::ellipsoid);
-    EXPECT_EQ(media[3].radii, glm::vec3(1, 2, 4));
+    EXPECT_EQ(media[3].half_extent, glm::vec3(1, 2, 4));
     EXPECT_NEAR(media[3].rotation.y, 0.6f, 1e-6f);
     EXPECT_NEAR(media[3].rotation.w, 0.8f, 1e-6f);
-    EXPECT_EQ(media[4].size, glm::vec3(4, 2, 3));
+    EXPECT_EQ(media[4].half_extent, glm::vec3(2, 1, 1.5f));
 }
 
 TEST(Medium, Defaults) {

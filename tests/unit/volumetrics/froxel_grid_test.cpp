@@ -99,7 +99,8 @@ TEST(FroxelCurve, GoesThroughTheSumsOfItsParts) {
 TEST(FroxelAuto, SlicesLieWhereTheMediumIs) {
     Inputs inputs = view_inputs();
     inputs.has_sun = true;
-    inputs.local = {{.box = true, .center = {0, 0, -30}, .half_extent = {2, 2, 4}, .sigma_s = glm::vec3(0.05F)}};
+    inputs.local = {
+        {.shape = Shape::box, .center = {0, 0, -30}, .half_extent = {2, 2, 4}, .sigma_s = glm::vec3(0.05F)}};
     const Settings settings{.froxel_distribution = DepthDistribution::automatic};
     const FroxelGrid grid = froxel_grid(inputs, settings);
     EXPECT_LE(grid.view_depth(0.5F / 64), 26) << "the middle of the first slice, which begins at the eye";
@@ -110,7 +111,8 @@ TEST(FroxelAuto, SlicesLieWhereTheMediumIs) {
     inputs.local.clear();
     EXPECT_NEAR(froxel_grid(inputs, settings).farthest, settings.froxel_far, 0.1F);
     // A global medium is everywhere.
-    inputs.local = {{.box = true, .center = {0, 0, -30}, .half_extent = {2, 2, 4}, .sigma_s = glm::vec3(0.05F)}};
+    inputs.local = {
+        {.shape = Shape::box, .center = {0, 0, -30}, .half_extent = {2, 2, 4}, .sigma_s = glm::vec3(0.05F)}};
     inputs.global = {{.sigma_s = glm::vec3(0.001F)}};
     EXPECT_EQ(froxel_grid(inputs, settings).nearest, 0);
     EXPECT_NEAR(froxel_grid(inputs, settings).farthest, settings.froxel_far, 0.1F);

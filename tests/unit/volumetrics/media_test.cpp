@@ -128,8 +128,9 @@ TEST(VolumetricsMedia, FroxelBoundsHoldEveryPointInView) {
 
 TEST(VolumetricsMedia, WithoutAGlobalMediumTheMarchKeepsToTheDepthsOfLocalOnes) {
     Inputs inputs = view_inputs();
-    inputs.local = {{.box = true, .center = {0, 0, -20}, .half_extent = {1, 1, 2}, .sigma_s = glm::vec3(1)},
-                    {.box = true, .center = {0, 0, -40}, .half_extent = {1, 1, 2}, .sigma_s = glm::vec3(1)}};
+    inputs.local = {
+        {.shape = Shape::box, .center = {0, 0, -20}, .half_extent = {1, 1, 2}, .sigma_s = glm::vec3(1)},
+        {.shape = Shape::box, .center = {0, 0, -40}, .half_extent = {1, 1, 2}, .sigma_s = glm::vec3(1)}};
     const glm::vec4 depths = gather_media(inputs, {}).data.medium_depths;
     EXPECT_LE(depths.x, 18);  // and no more than two slices of 9% too near or far
     EXPECT_GT(depths.x, 15);

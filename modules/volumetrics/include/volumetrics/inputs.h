@@ -22,11 +22,14 @@ struct GlobalMedium {
     float base = 0, falloff = 1;  ///< m
 };
 
-/// A medium bounded by an ellipsoid or a box, injected into the froxel volume.
+/// Of a bounded medium.
+enum class Shape { ellipsoid, box };
+
+/// A medium bounded by a shape.
 struct LocalMedium {
-    bool box = false;          ///< else an ellipsoid
+    Shape shape = Shape::ellipsoid;
     glm::vec3 center{0};       ///< m
-    glm::vec3 half_extent{1};  ///< radii or half edge lengths, m
+    glm::vec3 half_extent{1};  ///< of the box round the shape, before it is turned: radii, half edge lengths; m
     glm::quat rotation{1, 0, 0, 0};
     float softness = 0;  ///< m: linear ramp at the rim, inside the shape
     glm::vec3 sigma_s{0}, sigma_a{0};

@@ -8,21 +8,21 @@ namespace tyndall::volumetrics {
 /// shaders/volumetrics/frame/apply.glsl: a pass that includes it samples them (Volumetrics::sample_fog, bind_fog).
 /// Empty without a medium, and where neither the technique nor Inputs::transparents asked for it.
 struct Fog {
-    TextureRef columns;        ///< R32F: farthest view depth [m] in each column of froxels
-    TextureRef radiance;       ///< RGBA16F volume
-    TextureRef optical_depth;  ///< RGBA16F volume; empty where one value holds for all channels
+    TextureRef columns = {};        ///< R32F: farthest view depth [m] in each column of froxels
+    TextureRef radiance = {};       ///< RGBA16F volume
+    TextureRef optical_depth = {};  ///< RGBA16F volume; empty where one value holds for all channels
     explicit operator bool() const { return static_cast<bool>(radiance); }
 };
 
 /// Pre-multiplied result: color = scattering + color * transmittance. Empty refs: nothing to apply.
 struct Outputs {
-    TextureRef scattering;     ///< RGBA16F (of the technique reference RGBA32F, as all it gives): in-scattered and
-                               ///< emitted radiance; a = mean transmittance
-    TextureRef transmittance;  ///< RGBA16F, only when some medium's extinction is coloured; else scattering.a holds
-                               ///< for all channels
-    TextureRef acceptance;  ///< R16F, where Inputs::acceptance asks for it and there is a mean over frames: share
-                            ///< 0 … 1 of what was kept that each pixel took
-    Fog fog;
+    TextureRef scattering = {};     ///< RGBA16F (of the technique reference RGBA32F, as all it gives): in-scattered
+                                    ///< and emitted radiance; a = mean transmittance
+    TextureRef transmittance = {};  ///< RGBA16F, only when some medium's extinction is coloured; else scattering.a
+                                    ///< holds for all channels
+    TextureRef acceptance = {};     ///< R16F, where Inputs::acceptance asks for it and there is a mean over frames:
+                                    ///< share 0 … 1 of what was kept that each pixel took
+    Fog fog = {};
 };
 
 /// What media do to light on its way to surfaces: for a host's own lighting shaders, which include

@@ -1,22 +1,13 @@
 #pragma once
 
 #include <array>
+#include <string>
+#include <vector>
 
 #include "engine/core/settings.h"
 
 namespace tyndall::volumetrics {
 
-enum class Technique {
-    off,
-    ray_march,
-    froxel,
-    billboards,
-    particles,
-    shaft_geometry,
-    analytic_fog,
-    radial_shafts,
-    reference
-};
 enum class LampIntegration { center, segment };
 enum class Stepping { uniform, exponential };
 enum class Noise { none, bayer, white, white_tile, ign, blue, stbn, fast };
@@ -38,7 +29,7 @@ enum class RadialOcclusion { coverage, intervals };
 
 /// Everything a person can choose. Ranges, units and help: `settings_table()`.
 struct Settings {
-    Technique technique = Technique::ray_march;
+    std::string technique = "ray_march";  ///< the name of one of those in technique.h
     int steps = 8;
     Stepping stepping = Stepping::exponential;
     float stepping_strength = 1.0f;
@@ -111,7 +102,6 @@ inline constexpr std::array froxel_curve_settings{
 [[nodiscard]] std::array<float, 17> froxel_curve(const Settings& settings);
 
 /// Names of a choice, in enum order.
-[[nodiscard]] const std::vector<std::string>& technique_names();
 [[nodiscard]] const std::vector<std::string>& spatial_kernel_names();
 [[nodiscard]] const std::vector<std::string>& temporal_kernel_names();
 

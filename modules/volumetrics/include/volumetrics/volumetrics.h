@@ -47,6 +47,10 @@ class Volumetrics {
     /// Uploads this frame's uniforms and media; called before add_passes, and before the host's lighting pass runs.
     void prepare(const Inputs& inputs, const Settings& settings);
 
+    /// The view jumps (a camera cut): nothing of earlier frames shows in the next. What does not depend on the
+    /// view, as the light volumes, stays.
+    void forget_history();
+
     /// Bytes held between frames (history, tables), without the pass list's transient textures.
     [[nodiscard]] std::size_t persistent_bytes() const;
 

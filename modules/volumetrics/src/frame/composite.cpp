@@ -1,6 +1,8 @@
+#include "frame/composite.h"
+
 #include "engine/gl/state.h"
 #include "engine/gl/vertex_array.h"
-#include "frame/passes.h"
+#include "frame/bound_sources.h"
 
 namespace tyndall::volumetrics {
 namespace {
@@ -14,11 +16,10 @@ const ProgramRegistry::Registration registration(program);
 
 }  // namespace
 
-TextureRef add_composite(PassList& passes, const PassResources& resources, const Outputs& outputs, TextureRef color,
-                         bool count_work) {
+TextureRef add_composite(PassList& passes, ShaderLibrary& shaders, const Resources& resources,
+                         const Outputs& outputs, TextureRef color, bool count_work) {
     const bool chromatic = static_cast<bool>(outputs.transmittance);
-    const gl::Program& shader =
-        resources.shaders.get(program, {{"CHROMATIC", chromatic}, {"COUNT_WORK", count_work}});
+    const gl::Program& shader = shaders.get(program, {{"CHROMATIC", chromatic}, {"COUNT_WORK", count_work}});
     passes.add(
         "volumetrics/composite",
         [&](PassBuilder& builder) {
@@ -27,13 +28,10 @@ TextureRef add_composite(PassList& passes, const PassResources& resources, const
             color = builder.attach_color(color);
         },
         [outputs, color, &shader, &resources](const PassContext& context) {
-            const auto texture = [&](TextureRef ref) { return ref ? context.texture(ref) : gl::TextureView(); };
             gl::apply({});
             context.bind_framebuffer();
             // Every pixel reads the one texel that it writes, which a texture barrier allows (GL 4.5 core, 9.3.1).
-            const BoundTextures bound{{texture(color), resources.nearest},
-                                      {texture(outputs.scattering), resources.nearest},
-                                      {texture(outputs.transmittance), resources.nearest}};
+            const BoundSources bound(context, {{color}, {outputs.scattering}, {outputs.transmittance}}, resources);
             glTextureBarrier();
             shader.use();
             gl::draw_fullscreen();

@@ -1,4 +1,5 @@
-#include "volumetrics/settings.h"
+#include "frame/settings_table.h"
+#include "volumetrics/technique.h"
 
 namespace tyndall::volumetrics {
 
@@ -13,15 +14,15 @@ SettingsTable::Text curve_text(int part) {
 
 }  // namespace
 
-const SettingsTable& settings_table() {
+SettingsTable& growing_settings_table() {
     using Effect = SettingEffect;
     using Scale = SettingScale;
     using S = Settings;
-    static const SettingsTable table =
+    static SettingsTable table =
         SettingsTable("Volumetrics")
-            .choice(&S::technique,
-                    {"technique", "Technique", "How light in the medium is computed; off costs nothing."},
-                    technique_names(), Effect::permutation)
+            .name(&S::technique,
+                  {"technique", "Technique", "How light in the medium is computed; off costs nothing."},
+                  technique_names, Effect::permutation)
             .integer(
                 &S::steps,
                 {"steps", "Steps",
@@ -326,11 +327,8 @@ const SettingsTable& settings_table() {
     return table;
 }
 
-const std::vector<std::string>& technique_names() {
-    static const std::vector<std::string> names{"off",          "ray_march",     "froxel",
-                                                "billboards",   "particles",     "shaft_geometry",
-                                                "analytic_fog", "radial_shafts", "reference"};
-    return names;
+const SettingsTable& settings_table() {
+    return growing_settings_table();
 }
 
 const std::vector<std::string>& spatial_kernel_names() {

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "light/light_volume.h"
+#include "media/shape.h"
 
 namespace tyndall::volumetrics {
 namespace {
@@ -39,8 +40,7 @@ struct Cone {
 };
 
 Cone cone_of(const LocalMedium& medium, glm::vec3 lamp) {
-    const glm::vec3& half = medium.half_extent;
-    const float radius = medium.box ? glm::length(half) : std::max({half.x, half.y, half.z});
+    const float radius = bounding_radius(medium);
     const glm::vec3 to = medium.center - lamp;
     const float distance = glm::length(to);
     return distance <= radius ? Cone() : Cone{to / distance, std::asin(radius / distance)};
@@ -62,12 +62,6 @@ glm::vec4 window_of(const Lamp& lamp, const std::vector<Cone>& media, int direct
     for (const Cone& cone : media) all.add(cone);
     const Cone lit{lamp.axis, std::acos(std::clamp(lamp.cos_outer, -1.0F, 1.0F))};
     return window_round(lit.angle < all.angle ? lit : all, directions);
-}
-
-/// Nearest and farthest distance (m) from a point of the box round a medium.
-glm::vec2 distances(const LocalMedium& medium, glm::vec3 point) {
-    const glm::vec3 p = glm::abs(glm::conjugate(medium.rotation) * (point - medium.center));
-    return {glm::length(glm::max(p - medium.half_extent, 0.0F)), glm::length(p + medium.half_extent)};
 }
 
 }  // namespace

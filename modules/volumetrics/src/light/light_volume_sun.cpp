@@ -3,16 +3,10 @@
 #include <limits>
 
 #include "light/light_volume.h"
+#include "media/shape.h"
 
 namespace tyndall::volumetrics {
 namespace {
-
-/// Half of what a medium covers along a unit direction, m.
-double half_extent_along(const LocalMedium& medium, glm::dvec3 direction) {
-    const glm::dmat3 rotation = glm::mat3_cast(glm::dquat(medium.rotation));
-    const glm::dvec3 parts = direction * rotation * glm::dvec3(medium.half_extent);
-    return medium.box ? std::abs(parts.x) + std::abs(parts.y) + std::abs(parts.z) : glm::length(parts);
-}
 
 glm::dmat3 axes_along(glm::dvec3 direction) {
     const glm::dvec3 z = glm::normalize(direction);

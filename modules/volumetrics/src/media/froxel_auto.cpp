@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "media/froxel_tiles.h"
+#include "media/shape.h"
 
 namespace tyndall::volumetrics {
 namespace {
@@ -44,8 +45,7 @@ std::vector<Layer> layers_in_view(const Inputs& inputs, double far) {
     std::vector<Layer> layers;
     for (const LocalMedium& m : inputs.local) {
         const double light = source(m.sigma_s, m.sigma_a, m.emission);
-        const bool empty = !glm::all(glm::greaterThan(m.half_extent, glm::vec3(0)));
-        if (empty || light + mean(m.sigma_a) <= 0) continue;
+        if (is_empty(m) || light + mean(m.sigma_a) <= 0) continue;
         const ViewBounds b = view_bounds(m, inputs);
         const glm::vec2 size = glm::clamp(b.upper, 0.0F, 1.0F) - glm::clamp(b.lower, 0.0F, 1.0F);
         if (b.farthest <= 0 || double(b.nearest) >= far || size.x <= 0 || size.y <= 0) continue;

@@ -1,7 +1,5 @@
-#include "engine/gl/state.h"
-#include "engine/gl/vertex_array.h"
-#include "shaders/shared/bindings.h"
-#include "techniques/froxel_passes.h"
+#include "media/froxel_media.h"
+#include "volumetrics/frame.h"
 
 namespace tyndall::volumetrics {
 namespace {
@@ -15,26 +13,16 @@ const ProgramRegistry::Registration registration(program);
 
 }  // namespace
 
-TextureRef add_froxel_columns(PassList& passes, const PassResources& resources, const Inputs& inputs,
-                              const Settings& settings) {
-    const glm::ivec2 count{settings.froxels_x, settings.froxels_y};
-    TextureRef columns = passes.create("volumetrics/froxel_columns", {.format = GL_R32F, .size = {count, 1}});
-    const gl::Program& shader = resources.shaders.get(program, {{"COUNT_WORK", inputs.count_work}});
-    passes.add(
-        "volumetrics/froxel_columns",
-        [&](PassBuilder& builder) {
-            builder.sample(inputs.depth);
-            columns = builder.attach_color(columns);
-        },
-        [depth = inputs.depth, count, &shader, &resources](const PassContext& context) {
-            gl::apply({});
-            context.bind_framebuffer();
-            const BoundTextures bound{{context.texture(depth), resources.nearest}};
-            resources.uniforms.bind(GL_UNIFORM_BUFFER, BINDING_VOLUMETRICS);
-            shader.set("column_count", glm::vec2(count));
-            shader.use();
-            gl::draw_fullscreen();
-        });
+TextureRef add_froxel_columns(Frame& frame) {
+    const glm::ivec2 count{frame.settings.froxels_x, frame.settings.froxels_y};
+    TextureRef columns = frame.passes.create("volumetrics/froxel_columns", {.format = GL_R32F, .size = {count, 1}});
+    frame.add({.name = "volumetrics/froxel_columns",
+               .program = frame.program(program),
+               .sources = {{frame.inputs.depth}},
+               .targets = {&columns},
+               .set = [count](const PassContext&, const gl::Program& shader) {
+                   shader.set("column_count", glm::vec2(count));
+               }});
     return columns;
 }
 

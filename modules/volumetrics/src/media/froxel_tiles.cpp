@@ -2,14 +2,14 @@
 
 #include <algorithm>
 
+#include "media/shape.h"
+
 namespace tyndall::volumetrics {
 
 ViewBounds view_bounds(const LocalMedium& medium, const Inputs& inputs) {
-    const glm::mat3 rotation = glm::mat3_cast(medium.rotation);
     ViewBounds bounds;
-    for (int corner = 0; corner < 8; ++corner) {
-        const glm::vec3 side{(corner & 1) * 2 - 1, (corner & 2) - 1, (corner & 4) / 2 - 1};
-        const glm::vec4 view = inputs.view * glm::vec4(medium.center + rotation * (side * medium.half_extent), 1);
+    for (const glm::vec3 corner : corners(medium)) {
+        const glm::vec4 view = inputs.view * glm::vec4(corner, 1);
         const float depth = -view.z;
         bounds.nearest = std::min(bounds.nearest, depth);
         bounds.farthest = std::max(bounds.farthest, depth);

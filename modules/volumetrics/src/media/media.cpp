@@ -4,13 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/gtc/matrix_transform.hpp>
 
 #include "engine/core/error.h"
 #include "media/froxel_tiles.h"
+#include "media/shape.h"
 #include "reconstruction/noise.h"
 #include "reconstruction/reconstruction.h"
 #include "shaders/lib/glm_subset.h"
+#include "volumetrics/technique.h"
 
 TYNDALL_GLSL_BEGIN
 #include "shaders/lib/phase.glsl"
@@ -25,10 +26,6 @@ bool is_zero(glm::vec3 v) {
 template <class M>
 bool does_nothing(const M& medium) {
     return is_zero(medium.sigma_s) && is_zero(medium.sigma_a) && is_zero(medium.emission);
-}
-/// No extent, or none that makes sense: it holds no point, and dividing by it would give NaN.
-bool is_empty(const LocalMedium& medium) {
-    return !glm::all(glm::greaterThan(medium.half_extent, glm::vec3(0)));
 }
 /// Beyond the rounding of sigma_s + sigma_a.
 bool is_coloured(glm::vec3 sigma_t) {
@@ -60,15 +57,14 @@ shared::HeightMedium pack_height(const GlobalMedium& medium) {
 }
 
 shared::LocalMedium pack_local(const LocalMedium& medium) {
-    const glm::mat4 rotation = glm::mat4_cast(glm::conjugate(medium.rotation));
     const bool noise = medium.noise_scale > 0 && medium.noise_amount > 0;
-    return {.world_to_shape = glm::translate(rotation, -medium.center),
-            .extent_softness = {medium.half_extent, medium.softness},
-            .sigma_s_g = {medium.sigma_s, medium.anisotropy},
-            .sigma_a_shape = {medium.sigma_a, medium.box ? SHAPE_BOX : SHAPE_ELLIPSOID},
-            .emission_noise = {medium.emission, noise ? medium.noise_amount : 0.0F},
-            .noise_height = {medium.noise_scale, static_cast<float>(medium.noise_seed), medium.base,
-                             medium.height ? medium.falloff : 0.0F}};
+    shared::LocalMedium packed = pack_shape(medium);
+    packed.sigma_s_g = {medium.sigma_s, medium.anisotropy};
+    packed.sigma_a_shape = {medium.sigma_a, packed.sigma_a_shape.w};
+    packed.emission_noise = {medium.emission, noise ? medium.noise_amount : 0.0F};
+    packed.noise_height = {medium.noise_scale, static_cast<float>(medium.noise_seed), medium.base,
+                           medium.height ? medium.falloff : 0.0F};
+    return packed;
 }
 
 void add_global(const Inputs& inputs, FrameMedia& media) {
@@ -136,7 +132,7 @@ void add_attenuating(const Inputs& inputs, FrameMedia& media) {
 
 void add_local(const Inputs& inputs, const Settings& settings, FrameMedia& media) {
     const FroxelGrid grid = froxel_grid(inputs, settings);
-    if (settings.technique == Technique::reference)
+    if (technique(settings.technique).traits.unseen_local_media)
         add_all_local(inputs, grid, media);
     else
         add_local_in_view(inputs, grid, media);
@@ -145,7 +141,8 @@ void add_local(const Inputs& inputs, const Settings& settings, FrameMedia& media
     media.data.froxel_begins = grid.begins;
     media.data.froxel_lengths = grid.lengths;
     media.data.medium_depths = {0, 1e9F, 0, 0};
-    if (!media.has_global && !media.local_froxels.empty() && settings.technique != Technique::reference)
+    if (!media.has_global && !media.local_froxels.empty() &&
+        !technique(settings.technique).traits.unseen_local_media)
         media.data.medium_depths = glm::vec4(view_depths(media.local_froxels, grid), 0, 0);
     media.data.froxel_depths = {grid.nearest, grid.farthest, 0, 0};
 }
@@ -161,11 +158,6 @@ void set_stepping(const Settings& settings, shared::VolumetricsData& data) {
         first = std::expm1(growth) / std::expm1(growth * n);
     }
     data.march = {settings.max_distance, first, ratio, 0};
-}
-
-/// The techniques in closed form know only media that fill space.
-bool has_local_media(Technique technique) {
-    return technique != Technique::analytic_fog && technique != Technique::radial_shafts;
 }
 
 void set_view(const Inputs& inputs, const Settings& settings, shared::VolumetricsData& data) {
@@ -196,9 +188,10 @@ unsigned phase_option(PhaseFunction phase) {
 
 FrameMedia gather_media(const Inputs& inputs, const Settings& settings) {
     FrameMedia media;
-    if (settings.technique == Technique::off) return media;
+    const TechniqueDesc& desc = technique(settings.technique);
+    if (!desc.add) return media;
     add_global(inputs, media);
-    if (has_local_media(settings.technique)) {
+    if (desc.traits.local_media) {
         add_local(inputs, settings, media);
         if (settings.light_transmittance && (inputs.has_sun || inputs.has_lamps)) add_attenuating(inputs, media);
     }

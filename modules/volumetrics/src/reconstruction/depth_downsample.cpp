@@ -1,5 +1,3 @@
-#include "engine/gl/state.h"
-#include "engine/gl/vertex_array.h"
 #include "reconstruction/reconstruction.h"
 
 namespace tyndall::volumetrics {
@@ -15,38 +13,24 @@ const ProgramRegistry::Registration registration(program);
 
 }  // namespace
 
-bool is_depth_buffer(const PassList& passes, const Inputs& inputs) {
-    return passes.desc(inputs.depth).format == GL_DEPTH_COMPONENT32F;
+bool is_depth_buffer(const Frame& frame) {
+    return frame.passes.desc(frame.depth).format == GL_DEPTH_COMPONENT32F;
 }
 
-Inputs add_depth_downsample(PassList& passes, const PassResources& resources, const Inputs& inputs,
-                            const Settings& settings) {
-    const int factor = resolution_factor(settings);
-    if (factor == 1) {
-        passes.skip("volumetrics/depth_downsample", "resolution is full");
-        return inputs;
-    }
-    Inputs low = inputs;
-    low.size = (inputs.size + factor - 1) / factor;
-    low.depth = passes.create("volumetrics/depth_downsample", {.format = GL_R32F, .size = {low.size, 1}});
-    const gl::Program& shader = resources.shaders.get(program, {{"COUNT_WORK", inputs.count_work}});
-    passes.add(
-        "volumetrics/depth_downsample",
-        [&](PassBuilder& builder) {
-            builder.sample(inputs.depth);
-            low.depth = builder.attach_color(low.depth);
-        },
-        [depth = inputs.depth, factor, choice = static_cast<int>(settings.resolution_depth), &shader,
-         &resources](const PassContext& context) {
-            gl::apply({});
-            context.bind_framebuffer();
-            const BoundTextures bound{{context.texture(depth), resources.nearest}};
-            shader.set("factor", factor);
-            shader.set("choice", choice);
-            shader.use();
-            gl::draw_fullscreen();
-        });
-    return low;
+void add_depth_downsample(Frame& frame) {
+    const int factor = resolution_factor(frame.settings);
+    if (factor == 1) return frame.skip("volumetrics/depth_downsample", "resolution is full");
+    frame.size = (frame.inputs.size + factor - 1) / factor;
+    frame.depth = frame.create("volumetrics/depth_downsample", GL_R32F);
+    frame.add({.name = "volumetrics/depth_downsample",
+               .program = frame.program(program),
+               .sources = {{frame.inputs.depth}},
+               .targets = {&frame.depth},
+               .set = [factor, choice = static_cast<int>(frame.settings.resolution_depth)](
+                          const PassContext&, const gl::Program& shader) {
+                   shader.set("factor", factor);
+                   shader.set("choice", choice);
+               }});
 }
 
 }  // namespace tyndall::volumetrics

@@ -1,18 +1,19 @@
 #include <array>
 #include <cmath>
 
-#include "engine/gl/state.h"
-#include "engine/gl/vertex_array.h"
 #include "reconstruction/reconstruction.h"
 
 namespace tyndall::volumetrics {
 namespace {
 
+/// In one pass of each direction; more take another.
+constexpr std::size_t most_textures = 4;
+
 const ProgramDesc program{
     .name = "volumetrics/filter",
     .stages = {{GL_VERTEX_SHADER, "shaders/lib/fullscreen.vert"},
                {GL_FRAGMENT_SHADER, "shaders/volumetrics/reconstruction/filter.frag"}},
-    .axes = {{"DEPTH", {0, 1, 2}}, {"NARROWS", {0, 1}}, {"CHROMATIC", {0, 1}}, {"COUNT_WORK", {0, 1}}},
+    .axes = {{"DEPTH", {0, 1, 2}}, {"NARROWS", {0, 1}}, {"TEXTURES", {1, 2, 3, 4}}, {"COUNT_WORK", {0, 1}}},
     .valid = {}};
 const ProgramRegistry::Registration registration(program);
 
@@ -65,66 +66,51 @@ float variance(const Kernel& kernel) {
     return sum / total;
 }
 
-Outputs add_direction(PassList& passes, const PassResources& resources, const Inputs& low, const Settings& settings,
-                      const Outputs& source, TextureRef frames, const std::string& name, glm::vec2 direction) {
+void add_direction(Frame& frame, Textures textures, TextureRef frames, const std::string& name,
+                   glm::vec2 direction) {
+    const Settings& settings = frame.settings;
     const bool by_depth = settings.filter_depth != FilterDepth::none;
-    const bool chromatic = static_cast<bool>(source.transmittance);
-    const TextureRef depth = by_depth ? low.depth : TextureRef{};
-    Outputs target;
-    target.scattering = passes.create(name + "/scattering", passes.desc(source.scattering));
-    if (chromatic) target.transmittance = passes.create(name + "/transmittance", passes.desc(source.transmittance));
-
-    const gl::Program& shader = resources.shaders.get(program, {{"DEPTH", static_cast<int>(settings.filter_depth)},
-                                                                {"NARROWS", static_cast<bool>(frames)},
-                                                                {"CHROMATIC", chromatic},
-                                                                {"COUNT_WORK", low.count_work}});
-    const glm::vec2 texel = 1.0F / glm::vec2(low.size);
+    std::vector<Pass::Source> sources{{by_depth ? frame.depth : TextureRef{}}, {frames}};
+    for (TextureRef* texture : textures) {
+        sources.push_back({*texture});
+        *texture = create_like(frame, name, *texture, frame.size);
+    }
     // Neighbours of a checkerboard hold the nearest and the farthest depth of their blocks: a plane is one two
     // pixels apart, and what lies between is off it by as much as it changes within a block.
     const bool alternating =
         resolution_factor(settings) > 1 && settings.resolution_depth == DepthChoice::checkerboard;
-    passes.add(
-        name,
-        [&](PassBuilder& builder) {
-            builder.sample(depth);
-            builder.sample(source.scattering);
-            builder.sample(source.transmittance);
-            builder.sample(frames);
-            target.scattering = builder.attach_color(target.scattering);
-            if (chromatic) target.transmittance = builder.attach_color(target.transmittance);
-        },
-        [source, frames, depth, texel, direction, alternating, kernel = kernel_of(settings),
-         falloff = settings.filter_depth_falloff, &shader, &resources](const PassContext& context) {
-            const auto texture = [&](TextureRef ref) { return ref ? context.texture(ref) : gl::TextureView(); };
-            gl::apply({});
-            context.bind_framebuffer();
-            const BoundTextures bound{{texture(depth), resources.nearest},
-                                      {texture(source.scattering), resources.nearest},
-                                      {texture(source.transmittance), resources.nearest},
-                                      {texture(frames), resources.nearest}};
-            const std::array<float, 8>& w = kernel.weights;
-            shader.set("radius", kernel.radius);
-            shader.set("weights_0_3", glm::vec4(w[0], w[1], w[2], w[3]));
-            shader.set("weights_4_7", glm::vec4(w[4], w[5], w[6], w[7]));
-            if (frames) shader.set("kernel_variance", variance(kernel));
-            shader.set("texel", texel);
-            shader.set("direction", direction);
-            shader.set("depth_falloff", falloff);
-            shader.set("slope_stride", alternating ? 2.0F : 1.0F);
-            shader.set("slope_tolerance", alternating ? 1.0F : 0.0F);
-            shader.use();
-            gl::draw_fullscreen();
-        });
-    return target;
+    const auto set = [=, narrows = static_cast<bool>(frames), texel = 1.0F / glm::vec2(frame.size),
+                      kernel = kernel_of(settings),
+                      falloff = settings.filter_depth_falloff](const PassContext&, const gl::Program& shader) {
+        const std::array<float, 8>& w = kernel.weights;
+        shader.set("radius", kernel.radius);
+        shader.set("weights_0_3", glm::vec4(w[0], w[1], w[2], w[3]));
+        shader.set("weights_4_7", glm::vec4(w[4], w[5], w[6], w[7]));
+        if (narrows) shader.set("kernel_variance", variance(kernel));
+        shader.set("texel", texel);
+        shader.set("direction", direction);
+        shader.set("depth_falloff", falloff);
+        shader.set("slope_stride", alternating ? 2.0F : 1.0F);
+        shader.set("slope_tolerance", alternating ? 1.0F : 0.0F);
+    };
+    frame.add({.name = name,
+               .program = frame.program(program, {{"DEPTH", static_cast<int>(settings.filter_depth)},
+                                                  {"NARROWS", static_cast<bool>(frames)},
+                                                  {"TEXTURES", static_cast<int>(textures.size())}}),
+               .sources = sources,
+               .targets = {textures.begin(), textures.end()},
+               .set = set});
 }
 
 }  // namespace
 
-Outputs add_filter(PassList& passes, const PassResources& resources, const Inputs& low, const Settings& settings,
-                   const Outputs& source, TextureRef frames) {
-    const Outputs half_way =
-        add_direction(passes, resources, low, settings, source, frames, "volumetrics/filter_horizontal", {1, 0});
-    return add_direction(passes, resources, low, settings, half_way, frames, "volumetrics/filter_vertical", {0, 1});
+void add_filter(Frame& frame, Textures textures, TextureRef frames) {
+    if (textures.size() > most_textures) {
+        add_filter(frame, textures.first(most_textures), frames);
+        return add_filter(frame, textures.subspan(most_textures), frames);
+    }
+    add_direction(frame, textures, frames, "volumetrics/filter_horizontal", {1, 0});
+    add_direction(frame, textures, frames, "volumetrics/filter_vertical", {0, 1});
 }
 
 }  // namespace tyndall::volumetrics

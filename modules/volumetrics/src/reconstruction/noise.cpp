@@ -12,6 +12,7 @@
 #include "shaders/lib/glm_subset.h"
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/volumetrics.h"
+#include "volumetrics/technique.h"
 
 TYNDALL_GLSL_BEGIN
 #include "shaders/lib/sampling_noise.glsl"
@@ -94,13 +95,8 @@ std::string noise_texture_name(const Settings& settings) {
                        spatial_kernel_names()[static_cast<std::size_t>(settings.fast_space)], suffix);
 }
 
-bool samples_noise(Technique technique) {
-    return technique == Technique::ray_march || technique == Technique::billboards ||
-           technique == Technique::shaft_geometry || technique == Technique::radial_shafts;
-}
-
 void NoiseSource::prepare(const Settings& settings) {
-    const bool sampled = samples_noise(settings.technique);
+    const bool sampled = technique(settings.technique).traits.sampling == Sampling::per_pixel;
     const std::string texture = sampled ? noise_texture_name(settings) : "";
     const std::string name = sampled && is_tile(settings.noise)
                                  ? fmt::format("{} {}", static_cast<int>(settings.noise), settings.noise_size)

@@ -24,9 +24,6 @@ namespace tyndall::volumetrics {
 /// The texture of blue, stbn and fast in assets/noise, NAME_128x128x32_r8.raw; "" for other noise.
 [[nodiscard]] std::string noise_texture_name(const Settings& settings);
 
-/// Pixels of the technique sample where noise_offset.glsl says.
-[[nodiscard]] bool samples_noise(Technique technique);
-
 /// What shaders/volumetrics/reconstruction/noise_offset.glsl reads.
 class NoiseSource {
   public:

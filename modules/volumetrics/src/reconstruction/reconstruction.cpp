@@ -1,28 +1,64 @@
 #include "reconstruction/reconstruction.h"
 
-#include "reconstruction/relight.h"
-#include "reconstruction/temporal.h"
+#include <algorithm>
+
+#include "volumetrics/technique.h"
 
 namespace tyndall::volumetrics {
 namespace {
 
 constexpr const char* not_sampled = "pixels sample nothing";
 
-/// Pixels or particles stand elsewhere in each frame. Froxels have a history of their own.
-bool varies_in_time(Technique technique) {
-    return samples_noise(technique) || technique == Technique::particles;
+/// Of an estimate those sampled as much as `least`; all, if that is exact.
+std::vector<TextureRef*> textures_of(Estimate& estimate, Sampling least) {
+    std::vector<TextureRef*> textures;
+    const auto add = [&](TextureRef& texture, Sampling sampling) {
+        if (texture && sampling >= least) textures.push_back(&texture);
+    };
+    add(estimate.scattering, estimate.sampling);
+    add(estimate.transmittance, estimate.sampling);
+    for (Part& part : estimate.parts) {
+        add(part.light, Sampling::exact);
+        add(part.share, part.sampling);
+    }
+    return textures;
 }
 
-/// Of shaft_geometry it is the shadows of lamps.
-bool is_sampled(const Settings& settings, const Inputs& inputs) {
-    return varies_in_time(settings.technique) &&
-           (settings.technique != Technique::shaft_geometry || inputs.has_lamps);
+void filter(Frame& frame, Estimate& estimate, TextureRef frames) {
+    const std::vector<TextureRef*> noisy = textures_of(estimate, Sampling::per_pixel);
+    if (frame.settings.filter != Filter::none && !noisy.empty()) return add_filter(frame, noisy, frames);
+    for (const char* name : {"volumetrics/filter_horizontal", "volumetrics/filter_vertical"})
+        frame.skip(name, frame.settings.filter == Filter::none ? "filter is none" : not_sampled);
+}
+
+void upsample(Frame& frame, Estimate& estimate) {
+    std::vector<TextureRef*> low = textures_of(estimate, Sampling::exact);
+    std::erase_if(low, [&](const TextureRef* texture) {
+        return glm::ivec2(frame.passes.desc(*texture).size) == frame.inputs.size;
+    });
+    if (!low.empty())
+        add_upsample(frame, low);
+    else
+        frame.skip("volumetrics/upsample", "resolution is full");
 }
 
 }  // namespace
 
+const std::vector<std::string>& reconstruction_passes() {
+    static const std::vector<std::string> names{"volumetrics/depth_downsample",  "volumetrics/temporal",
+                                                "volumetrics/filter_horizontal", "volumetrics/filter_vertical",
+                                                "volumetrics/upsample",          "volumetrics/relight"};
+    return names;
+}
+
+const char* reason_for_no_parts(const Settings& settings) {
+    if (settings.reconstruct == Reconstruct::light) return "reconstruct is light";
+    const bool none = settings.filter == Filter::none && settings.temporal == Temporal::off;
+    return none && settings.resolution == Resolution::full ? "nothing reconstructs visibility" : nullptr;
+}
+
 bool averages_frames(const Settings& settings) {
-    return settings.temporal != Temporal::off && varies_in_time(settings.technique);
+    return settings.temporal != Temporal::off && technique(settings.technique).traits.sampling != Sampling::exact;
 }
 
 bool reads_motion(const Settings& settings) {
@@ -30,45 +66,39 @@ bool reads_motion(const Settings& settings) {
 }
 
 int resolution_factor(const Settings& settings) {
-    const bool any = varies_in_time(settings.technique) || settings.technique == Technique::froxel;
+    const bool any = technique(settings.technique).traits.any_resolution;
     return any ? 1 << static_cast<int>(settings.resolution) : 1;
 }
 
-Outputs add_reconstruction(PassList& passes, const PassResources& resources, const Inputs& inputs,
-                           const Inputs& low, const Settings& settings, const Outputs& sampled,
-                           TemporalHistory& history) {
-    return add_reconstruction(passes, resources, inputs, low, settings, MarchedLight{.rest = sampled}, history);
+std::string name_after(const std::string& pass, const PassList::TextureInfo& source) {
+    return pass + source.name.substr(source.name.rfind('/'));
 }
 
-Outputs add_reconstruction(PassList& passes, const PassResources& resources, const Inputs& inputs,
-                           const Inputs& low, const Settings& settings, const MarchedLight& marched,
-                           TemporalHistory& history) {
-    Outputs result = noisy_part(marched);
-    const bool sampled = is_sampled(settings, inputs);
-    const bool temporal = settings.temporal != Temporal::off && sampled;
+TextureRef create_like(Frame& frame, const std::string& pass, TextureRef source, glm::ivec2 size) {
+    const PassList::TextureInfo info = frame.passes.info(source);
+    return frame.passes.create(name_after(pass, info), {.format = info.desc.format, .size = {size, 1}});
+}
+
+Outputs reconstruct(Frame& frame, Estimate estimate) {
+    Outputs outputs{.fog = estimate.fog};
+    if (!estimate) return outputs;
+    const Settings& settings = frame.settings;
+    const std::vector<TextureRef*> sampled = textures_of(estimate, Sampling::per_frame);
+    const bool temporal = settings.temporal != Temporal::off && !sampled.empty();
     const bool before = temporal && settings.temporal_place == TemporalPlace::before;
     if (!temporal)
-        passes.skip("volumetrics/temporal", settings.temporal == Temporal::off ? "temporal is off" : not_sampled);
-    TextureRef frames;
-    if (before) {
-        const TemporalMean mean = add_temporal(passes, resources, low, settings, result, history);
-        result = mean.light;
-        if (settings.filter_narrows && settings.temporal == Temporal::accumulate) frames = mean.frames;
-    }
-    const TextureRef acceptance = result.acceptance;
-    if (settings.filter != Filter::none && sampled && samples_noise(settings.technique))
-        result = add_filter(passes, resources, low, settings, result, frames);
-    else
-        for (const char* name : {"volumetrics/filter_horizontal", "volumetrics/filter_vertical"})
-            passes.skip(name, settings.filter == Filter::none ? "filter is none" : not_sampled);
-    if (marched.sun || marched.lamps) result = add_relight(passes, resources, marched, result, low.count_work);
-    if (settings.resolution != Resolution::full)
-        result = add_upsample(passes, resources, inputs, low, settings, result);
-    else
-        passes.skip("volumetrics/upsample", "resolution is full");
-    if (temporal && !before) return add_temporal(passes, resources, inputs, settings, result, history).light;
-    result.acceptance = acceptance;
-    return result;
+        frame.skip("volumetrics/temporal", settings.temporal == Temporal::off ? "temporal is off" : not_sampled);
+    TemporalMean mean;
+    if (before) mean = add_temporal(frame, sampled);
+    const bool narrows = settings.filter_narrows && settings.temporal == Temporal::accumulate;
+    filter(frame, estimate, narrows ? mean.frames : TextureRef{});
+    upsample(frame, estimate);
+    if (temporal && !before) mean = add_temporal(frame, sampled);
+    if (!estimate.parts.empty()) add_relight(frame, estimate);
+    outputs.scattering = estimate.scattering;
+    outputs.transmittance = estimate.transmittance;
+    outputs.acceptance = mean.acceptance;
+    return outputs;
 }
 
 }  // namespace tyndall::volumetrics

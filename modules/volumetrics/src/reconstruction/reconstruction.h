@@ -1,50 +1,52 @@
 #pragma once
 
-#include "frame/passes.h"
+#include <span>
+#include <vector>
+
+#include "volumetrics/frame.h"
 
 namespace tyndall::volumetrics {
 
-class TemporalHistory;
-struct MarchedLight;
+/// Between samples and picture, each where settings ask for it:
+///     temporal (before) -> spatial filter -> up-sampling -> temporal (after) -> relight
+/// The filter takes what is sampled per pixel, temporal what is sampled at all, up-sampling all; relight makes of
+/// the rest and the parts one light, at the host's resolution.
+[[nodiscard]] Outputs reconstruct(Frame& frame, Estimate estimate);
+/// Names of its passes, with depth_downsample.
+[[nodiscard]] const std::vector<std::string>& reconstruction_passes();
 
-/// What techniques that sample draw to: `inputs` with the size and the depth of the chosen resolution. At full
-/// resolution these are the host's.
-[[nodiscard]] Inputs add_depth_downsample(PassList& passes, const PassResources& resources, const Inputs& inputs,
-                                          const Settings& settings);
-/// `inputs` are those of full resolution: their depth can hide what is drawn.
-[[nodiscard]] bool is_depth_buffer(const PassList& passes, const Inputs& inputs);
+/// Why a technique leaves all light in Estimate::scattering instead of in parts: nothing would come of it with
+/// these settings. Null: it does not.
+[[nodiscard]] const char* reason_for_no_parts(const Settings& settings);
 /// A mean over frames is asked for, of a technique whose samples differ from frame to frame.
 [[nodiscard]] bool averages_frames(const Settings& settings);
-/// Pixels of the host along each side of one pixel of that: 1, 2 or 4.
+/// Pixels of the host along each side of one pixel that the technique draws: 1, 2 or 4.
 [[nodiscard]] int resolution_factor(const Settings& settings);
 
-/// Between samples and picture, each where settings ask for it:
-///     temporal (before) -> spatial filter -> relight -> up-sampling -> temporal (after)
-/// The filter only where the technique's pixels sample at noise, temporal there and for particles.
-/// `sampled` is of the size of `low` (add_depth_downsample); the result is of the host's. Every texture of
-/// `sampled` goes the same way.
-[[nodiscard]] Outputs add_reconstruction(PassList& passes, const PassResources& resources, const Inputs& inputs,
-                                         const Inputs& low, const Settings& settings, const Outputs& sampled,
-                                         TemporalHistory& history);
+/// Sets Frame::size and Frame::depth to what the technique draws to.
+void add_depth_downsample(Frame& frame);
+/// What is drawn at Frame::size can be hidden by Frame::depth.
+[[nodiscard]] bool is_depth_buffer(const Frame& frame);
 
-/// The same, of which the steps before relight take noisy_part() alone.
-[[nodiscard]] Outputs add_reconstruction(PassList& passes, const PassResources& resources, const Inputs& inputs,
-                                         const Inputs& low, const Settings& settings, const MarchedLight& marched,
-                                         TemporalHistory& history);
-
-/// The spatial filter, two passes at the resolution of `source`; settings.filter is not none. With `frames` (y:
-/// frames in the mean that each pixel of `source` is) the kernel is the narrower the more there are.
-[[nodiscard]] Outputs add_filter(PassList& passes, const PassResources& resources, const Inputs& low,
-                                 const Settings& settings, const Outputs& source, TextureRef frames);
-/// From the resolution of `low` to the host's.
-[[nodiscard]] Outputs add_upsample(PassList& passes, const PassResources& resources, const Inputs& inputs,
-                                   const Inputs& low, const Settings& settings, const Outputs& source);
+/// The steps of reconstruct. Each replaces the textures it is given.
+using Textures = std::span<TextureRef* const>;
+/// Two passes at Frame::size. With `frames` (y: frames in the mean that each pixel is) the kernel is the narrower
+/// the more there are.
+void add_filter(Frame& frame, Textures textures, TextureRef frames);
+/// From Frame::size to the host's.
+void add_upsample(Frame& frame, Textures textures);
 struct TemporalMean {
-    Outputs light;      ///< with Outputs::acceptance
-    TextureRef frames;  ///< float, y: frames in the mean, 1 … 256
+    TextureRef acceptance;  ///< see Outputs, where Inputs::acceptance asks for it
+    TextureRef frames;      ///< float, y: frames in the mean, 1 … 256
 };
-/// The mean over frames at the resolution of `at`, settings.temporal is not off.
-[[nodiscard]] TemporalMean add_temporal(PassList& passes, const PassResources& resources, const Inputs& at,
-                                        const Settings& settings, const Outputs& source, TemporalHistory& history);
+/// The mean over frames; settings.temporal is not off. At Frame::size, or the host's where temporal_place is after.
+[[nodiscard]] TemporalMean add_temporal(Frame& frame, Textures textures);
+/// There are parts.
+void add_relight(Frame& frame, Estimate& estimate);
+
+/// PASS/NAME of what a pass makes of a texture PASS_BEFORE/NAME.
+[[nodiscard]] std::string name_after(const std::string& pass, const PassList::TextureInfo& source);
+/// A new texture of the format of `source`, named after the pass and it.
+[[nodiscard]] TextureRef create_like(Frame& frame, const std::string& pass, TextureRef source, glm::ivec2 size);
 
 }  // namespace tyndall::volumetrics

@@ -5,11 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/gl/state.h"
-#include "engine/gl/vertex_array.h"
+#include "engine/core/error.h"
+#include "frame/resources.h"
 #include "reconstruction/reconstruction.h"
 #include "reconstruction/reprojection.h"
-#include "shaders/shared/bindings.h"
 
 namespace tyndall::volumetrics {
 namespace {
@@ -18,7 +17,7 @@ const ProgramDesc program{
     .name = "volumetrics/temporal",
     .stages = {{GL_VERTEX_SHADER, "shaders/lib/fullscreen.vert"},
                {GL_FRAGMENT_SHADER, "shaders/volumetrics/reconstruction/temporal.frag"}},
-    .axes = {{"CLIP", {0, 1}}, {"REJECT", {0, 1}}, {"CHROMATIC", {0, 1}}, {"COUNT_WORK", {0, 1}}},
+    .axes = {{"CLIP", {0, 1}}, {"REJECT", {0, 1}}, {"TEXTURES", {1, 2, 3, 4}}, {"COUNT_WORK", {0, 1}}},
     .valid = {}};
 const ProgramRegistry::Registration registration(program);
 
@@ -57,48 +56,39 @@ bool reprojects(const Settings& settings) {
 
 }  // namespace
 
-void TemporalHistory::begin_frame(const Inputs& at, const Settings& settings, const gl::TextureDesc& scattering,
-                                  const gl::TextureDesc& transmittance) {
-    chromatic_ = transmittance.size.x > 0;
+void TemporalHistory::begin_frame(const Inputs& inputs, const Settings& settings, glm::ivec2 size,
+                                  const std::vector<gl::TextureDesc>& textures) {
     const bool statistics = reprojects(settings) && settings.temporal_reject;
-    const gl::TextureDesc surface{
-        .format = static_cast<GLenum>(statistics ? GL_RGBA32F : GL_RG32F), .size = {at.size, 1}, .levels = 1};
-    scattering_.begin_frame(scattering, "volumetrics temporal scattering");
-    surface_.begin_frame(surface, "volumetrics temporal surface");
-    if (chromatic_)
-        transmittance_.begin_frame(transmittance, "volumetrics temporal transmittance");
-    else
-        transmittance_.release();
-    const Key key{settings.temporal, settings.temporal_place, settings.technique, settings.resolution};
-    if (key != key_) scattering_.invalidate();
-    key_ = key;
-    if (!valid()) frame_ = 0;
-    current_ = {.view = at.view,
-                .projection = at.projection,
-                .eye = at.eye,
-                .motion = static_cast<bool>(at.motion),
-                .has_sun = at.has_sun,
-                .sun_direction = at.sun_direction,
-                .global = at.global,
-                .lamps = at.lamps};
-}
-
-void TemporalHistory::end_frame() {
-    scattering_.end_frame();
-    surface_.end_frame();
-    if (chromatic_) transmittance_.end_frame();
+    surface_.begin_frame({.format = static_cast<GLenum>(statistics ? GL_RGBA32F : GL_RG32F), .size = {size, 1}},
+                         "volumetrics temporal surface");
+    Key key{settings.temporal, settings.temporal_place, settings.technique, settings.resolution, textures.size()};
+    if (key != key_) surface_.invalidate();
+    key_ = std::move(key);
+    for (std::size_t i = 0; i < most_textures; ++i) {
+        if (i >= textures.size()) {
+            textures_[i].release();
+            continue;
+        }
+        textures_[i].begin_frame(textures[i], "volumetrics temporal");
+        if (!textures_[i].valid()) surface_.invalidate();
+    }
+    if (!valid())
+        for (History& texture : textures_) texture.invalidate();
+    frame_ = valid() ? frame_ + 1 : 0;
     previous_ = current_;
-    ++frame_;
-}
-
-bool TemporalHistory::valid() const {
-    return scattering_.valid() && surface_.valid() && (!chromatic_ || transmittance_.valid());
+    current_ = {.view = inputs.view,
+                .projection = inputs.projection,
+                .eye = inputs.eye,
+                .motion = static_cast<bool>(inputs.motion),
+                .has_sun = inputs.has_sun,
+                .sun_direction = inputs.sun_direction,
+                .global = inputs.global,
+                .lamps = inputs.lamps};
 }
 
 std::size_t TemporalHistory::bytes() const {
-    std::size_t bytes = 0;
-    for (const History* history : {&scattering_, &transmittance_, &surface_})
-        if (history->current()) bytes += 2 * gl::byte_size(history->current().desc());
+    std::size_t bytes = surface_.bytes();
+    for (const History& texture : textures_) bytes += texture.bytes();
     return bytes;
 }
 
@@ -135,82 +125,72 @@ void TemporalHistory::set_changes(const gl::Program& shader) const {
     shader.set("travel", glm::distance(previous_.eye, current_.eye) / camera_travel);
 }
 
-TemporalMean add_temporal(PassList& passes, const PassResources& resources, const Inputs& at,
-                          const Settings& settings, const Outputs& source, TemporalHistory& history) {
-    const bool chromatic = static_cast<bool>(source.transmittance);
-    history.begin_frame(at, settings, passes.desc(source.scattering),
-                        chromatic ? passes.desc(source.transmittance) : gl::TextureDesc{.size = {0, 0, 0}});
-    const auto import = [&](const gl::Texture& texture, const char* name) {
-        return texture ? passes.import(name, texture) : TextureRef();
-    };
-    const TextureRef scattering_before =
-        import(history.scattering().previous(), "volumetrics/temporal_scattering_before");
-    const TextureRef transmittance_before =
-        import(history.transmittance().previous(), "volumetrics/temporal_transmittance_before");
-    const TextureRef surface_before = import(history.surface().previous(), "volumetrics/temporal_surface_before");
-    TextureRef surface = import(history.surface().current(), "volumetrics/temporal_surface");
-    Outputs target = source;
-    target.scattering = import(history.scattering().current(), "volumetrics/temporal_scattering");
-    target.transmittance = import(history.transmittance().current(), "volumetrics/temporal_transmittance");
-    if (at.acceptance)
-        target.acceptance = passes.create("volumetrics/acceptance", {.format = GL_R16F, .size = {at.size, 1}});
+TemporalMean add_temporal(Frame& frame, Textures textures) {
+    const Settings& settings = frame.settings;
+    const bool before = settings.temporal_place == TemporalPlace::before;
+    const glm::ivec2 size = before ? frame.size : frame.inputs.size;
+    TemporalHistory& history = frame.resources.temporal;
+    if (textures.size() > TemporalHistory::most_textures)
+        throw Error(fmt::format("technique {}: {} textures to average over frames, at most {} expected",
+                                settings.technique, textures.size(), TemporalHistory::most_textures));
+    std::vector<gl::TextureDesc> descs;
+    for (const TextureRef* texture : textures) descs.push_back(frame.passes.desc(*texture));
+    history.begin_frame(frame.inputs, settings, size, descs);
 
     const bool moves = reprojects(settings);
     const bool counted = settings.temporal == Temporal::accumulate;
     const int taps = !history.valid() ? 0 : !moves || history.still() ? 1 : 4;
-    const gl::Program& shader = resources.shaders.get(program, {{"CLIP", moves && settings.temporal_clip},
-                                                                {"REJECT", moves && settings.temporal_reject},
-                                                                {"CHROMATIC", chromatic},
-                                                                {"COUNT_WORK", at.count_work}});
-    passes.add(
-        "volumetrics/temporal",
-        [&](PassBuilder& builder) {
-            for (TextureRef ref : {at.depth, source.scattering, scattering_before, surface_before, at.motion,
-                                   source.transmittance, transmittance_before})
-                builder.sample(ref);
-            target.scattering = builder.attach_color(target.scattering);
-            surface = builder.attach_color(surface);
-            if (chromatic) target.transmittance = builder.attach_color(target.transmittance);
-            if (target.acceptance) target.acceptance = builder.attach_color(target.acceptance);
-        },
-        [=, &shader, &resources, &history, motion = at.motion, depth = at.depth,
-         low = settings.temporal_place == TemporalPlace::before, mode = settings.temporal,
-         weight = settings.temporal_weight, scale = settings.temporal_scale,
-         frames = static_cast<float>(settings.temporal_frames)](const PassContext& context) {
-            const auto texture = [&](TextureRef ref) { return ref ? context.texture(ref) : gl::TextureView(); };
-            gl::apply({});
-            context.bind_framebuffer();
-            const gl::Sampler& nearest = resources.nearest;
-            const BoundTextures bound{{texture(depth), nearest},
-                                      {texture(source.scattering), resources.linear},
-                                      {texture(scattering_before), resources.linear},
-                                      {texture(surface_before), nearest},
-                                      {texture(motion), nearest},
-                                      {texture(source.transmittance), nearest},
-                                      {texture(transmittance_before), nearest}};
-            resources.uniforms.bind(GL_UNIFORM_BUFFER, BINDING_VOLUMETRICS);
-            shader.set("taps", taps);
-            shader.set("low", low ? 1 : 0);
-            shader.set("motion", motion ? 1 : 0);
-            shader.set("by_depth", mode == Temporal::acceptance || counted ? 1 : 0);
-            shader.set("counted", counted ? 1 : 0);
-            shader.set("scale", scale);
-            shader.set("least_weight", weight);
-            shader.set("most_frames", counted ? frames : many_frames);
-            if (mode == Temporal::blend) {
-                shader.set("known_frames", many_frames);
-                shader.set("travel", 0.0F);
-                shader.set("changed_lamp_count", 0);
-            } else {
-                history.set_changes(shader);
-            }
-            shader.set("frame", history.frame());
-            shader.set("previous_clip_from_view", history.clip_before_from_view());
-            shader.use();
-            gl::draw_fullscreen();
-            history.end_frame();
-        });
-    return {target, surface};
+    PassList::HistoryRefs surface = frame.passes.import_history("volumetrics/temporal/surface", history.surface());
+    std::vector<Pass::Source> sources{
+        {before ? frame.depth : frame.inputs.depth}, {surface.previous}, {frame.inputs.motion}};
+    std::vector<Pass::Source> kept;
+    std::vector<TextureRef*> targets{&surface.current};
+    for (std::size_t i = 0; i < textures.size(); ++i) {
+        const auto [previous, current] = frame.passes.import_history(
+            name_after("volumetrics/temporal", frame.passes.info(*textures[i])), history.texture(i));
+        // The first is read between its pixels, for what changed.
+        sources.push_back({*textures[i], i == 0});
+        kept.push_back({previous, i == 0});
+        *textures[i] = current;
+        targets.push_back(textures[i]);
+    }
+    sources.insert(sources.end(), kept.begin(), kept.end());
+    TemporalMean mean;
+    if (frame.inputs.acceptance)
+        mean.acceptance = frame.passes.create("volumetrics/acceptance", {.format = GL_R16F, .size = {size, 1}});
+    targets.push_back(&mean.acceptance);
+
+    const auto set = [=, &history, motion = static_cast<bool>(frame.inputs.motion), mode = settings.temporal,
+                      weight = settings.temporal_weight, scale = settings.temporal_scale,
+                      frames = static_cast<float>(settings.temporal_frames)](const PassContext&,
+                                                                             const gl::Program& shader) {
+        shader.set("taps", taps);
+        shader.set("low", before ? 1 : 0);
+        shader.set("motion", motion ? 1 : 0);
+        shader.set("by_depth", mode == Temporal::acceptance || counted ? 1 : 0);
+        shader.set("counted", counted ? 1 : 0);
+        shader.set("scale", scale);
+        shader.set("least_weight", weight);
+        shader.set("most_frames", counted ? frames : many_frames);
+        if (mode == Temporal::blend) {
+            shader.set("known_frames", many_frames);
+            shader.set("travel", 0.0F);
+            shader.set("changed_lamp_count", 0);
+        } else {
+            history.set_changes(shader);
+        }
+        shader.set("frame", history.frame());
+        shader.set("previous_clip_from_view", history.clip_before_from_view());
+    };
+    frame.add({.name = "volumetrics/temporal",
+               .program = frame.program(program, {{"CLIP", moves && settings.temporal_clip},
+                                                  {"REJECT", moves && settings.temporal_reject},
+                                                  {"TEXTURES", static_cast<int>(textures.size())}}),
+               .sources = sources,
+               .targets = targets,
+               .set = set});
+    mean.frames = surface.current;
+    return mean;
 }
 
 }  // namespace tyndall::volumetrics

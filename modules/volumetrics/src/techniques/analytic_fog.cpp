@@ -1,5 +1,9 @@
-#include "techniques/fog_pass.h"
+#include "techniques/analytic_fog.h"
 
+#include "frame/resources.h"
+#include "techniques/techniques.h"
+
+// See shaders/volumetrics/techniques/analytic_fog.frag.
 namespace tyndall::volumetrics {
 namespace {
 
@@ -15,13 +19,23 @@ const ProgramRegistry::Registration registration(program);
 
 }  // namespace
 
-Outputs add_analytic_fog(PassList& passes, PassResources& resources, const Inputs& inputs, const Settings&,
-                         const FrameMedia& media) {
-    Permutation permutation = fog_permutation(inputs, media);
-    permutation["HAS_SUN"] = inputs.has_sun;
-    const gl::Program& shader = resources.shaders.get(program, permutation);
-    return add_fog_pass(passes, resources, inputs,
-                        {"volumetrics/analytic_fog", shader, {}, fog_targets(passes, inputs, media)});
+Estimate add_analytic_fog(Frame& frame) {
+    Estimate estimate = frame.create_host_estimate();
+    frame.add({.name = "volumetrics/analytic_fog",
+               .program = frame.program(program),
+               .sources = {{frame.inputs.depth}},
+               .targets = {&estimate.scattering, &estimate.transmittance},
+               .lit = true});
+    return estimate;
+}
+
+TechniqueDesc analytic_fog() {
+    return {.name = "analytic_fog",
+            .help = "Fog in closed form with an unshadowed sun; no lamps, no local media.",
+            .settings = "fog_mode",
+            .passes = {"volumetrics/analytic_fog"},
+            .traits = {.local_media = false},
+            .add = add_analytic_fog};
 }
 
 }  // namespace tyndall::volumetrics

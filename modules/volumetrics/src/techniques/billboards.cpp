@@ -1,11 +1,13 @@
 #include <algorithm>
 
-#include "engine/gl/state.h"
-#include "engine/gl/vertex_array.h"
+#include "frame/resources.h"
+#include "media/shape.h"
 #include "reconstruction/reconstruction.h"
 #include "shaders/lib/glm_subset.h"
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/sprites.h"
+#include "techniques/sprites.h"
+#include "techniques/techniques.h"
 
 TYNDALL_GLSL_BEGIN
 #include "shaders/lib/froxel.glsl"
@@ -51,10 +53,7 @@ void add_sheets(const Settings& settings, std::vector<shared::Billboard>& sprite
 /// Nearest and farthest view depth [m] of a shape; the nearest is not behind the eye.
 glm::vec2 depths_of(const shared::LocalMedium& medium, const glm::mat4& view) {
     const glm::vec3 center = glm::vec3(glm::inverse(medium.world_to_shape)[3]);
-    const glm::vec3 forward = glm::mat3(medium.world_to_shape) * -glm::vec3(view[0][2], view[1][2], view[2][2]);
-    const glm::vec3 reach = forward * glm::vec3(medium.extent_softness);
-    const bool box = static_cast<int>(medium.sigma_a_shape.w) == SHAPE_BOX;
-    const float half = box ? glm::dot(glm::abs(reach), glm::vec3(1)) : glm::length(reach);
+    const float half = half_extent_along(medium, -glm::vec3(view[0][2], view[1][2], view[2][2]));
     const float middle = -(view * glm::vec4(center, 1)).z;
     return {std::max(middle - half, 0.0F), middle + half};
 }
@@ -91,95 +90,64 @@ std::vector<shared::Billboard> sorted_billboards(const Inputs& inputs, const Set
 /// One texture for each channel that is blended by a transmittance of its own.
 using Layers = std::vector<TextureRef>;
 
-Layers add_draw(PassList& passes, const PassResources& resources, const Inputs& inputs, const Settings& settings,
-                const FrameMedia& media, GLsizei count) {
+Layers add_draw(Frame& frame, const gl::Buffer& sprites, GLsizei count) {
     Layers layers;
     for (const char* name :
          {"volumetrics/billboards_red", "volumetrics/billboards_green", "volumetrics/billboards_blue"})
-        if (layers.empty() || media.chromatic)
-            layers.push_back(passes.create(name, {.format = GL_RGBA32F, .size = {inputs.size, 1}}));
-    const gl::Program& shader = resources.shaders.get(program, {{"HEIGHT_MEDIA", height_media_axis(media)},
-                                                                {"HAS_SUN", inputs.has_sun},
-                                                                {"LAMPS", inputs.has_lamps},
-                                                                {"LIGHT_VOLUMES", resources.light_volumes.axis()},
-                                                                {"CHROMATIC", media.chromatic},
-                                                                {"COUNT_WORK", inputs.count_work}});
-    const bool lit = inputs.has_sun || inputs.has_lamps || inputs.has_ambient;
-    const bool hides = is_depth_buffer(passes, inputs);
-    passes.add(
-        "volumetrics/billboards",
-        [&](PassBuilder& builder) {
-            builder.sample(inputs.depth);
-            if (lit) {
-                for (TextureRef texture : inputs.light_textures) builder.sample(texture);
-                for (BufferRef buffer : inputs.light_buffers) builder.read(buffer);
-            }
-            resources.light_volumes.sample(builder);
-            for (TextureRef& layer : layers) layer = builder.attach_color(layer);
-            if (hides) builder.attach_depth_read_only(inputs.depth);
-        },
-        [hides, depth = inputs.depth, targets = static_cast<GLint>(layers.size()), count,
-         bind_lighting = lit ? inputs.bind_lighting : nullptr, fade = settings.billboard_fade, &shader,
-         &resources](const PassContext& context) {
-            gl::apply({.depth_test = hides, .blend = gl::Blend::premultiplied});
-            context.bind_framebuffer();
-            const glm::vec4 nothing{0, 0, 0, 1};
-            for (GLint target = 0; target < targets; ++target) glClearBufferfv(GL_COLOR, target, &nothing.x);
-            if (bind_lighting) bind_lighting();
-            resources.light_volumes.bind();
-            resources.noise.bind();
-            const BoundTextures bound{{context.texture(depth), resources.nearest}};
-            resources.uniforms.bind(GL_UNIFORM_BUFFER, BINDING_VOLUMETRICS);
-            resources.sprites.bind(GL_SHADER_STORAGE_BUFFER, BINDING_SPRITES);
-            if (resources.local_media) resources.local_media.bind(GL_SHADER_STORAGE_BUFFER, BINDING_LOCAL_MEDIA);
-            shader.set("fade", fade);
-            shader.use();
-            const gl::VertexArray empty("billboards");
-            empty.bind();
-            glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, count);
-            glBindVertexArray(0);
-        });
+        if (layers.empty() || frame.media.chromatic) layers.push_back(frame.create(name, GL_RGBA32F));
+    std::vector<TextureRef*> targets;
+    for (TextureRef& layer : layers) targets.push_back(&layer);
+    const bool hides = is_depth_buffer(frame);
+    frame.add({.name = "volumetrics/billboards",
+               .program = frame.program(program, {{"LAMPS", frame.inputs.has_lamps}}),
+               .sources = {{frame.depth}},
+               .targets = targets,
+               .depth_test = hides ? frame.depth : TextureRef{},
+               .lit = true,
+               .light_volumes = true,
+               .state = {.depth_test = hides, .blend = gl::Blend::premultiplied},
+               .set =
+                   [&sprites, &resources = frame.resources, targets = static_cast<GLint>(layers.size()),
+                    fade = frame.settings.billboard_fade](const PassContext&, const gl::Program& shader) {
+                       const glm::vec4 nothing{0, 0, 0, 1};
+                       for (GLint target = 0; target < targets; ++target)
+                           glClearBufferfv(GL_COLOR, target, &nothing.x);
+                       sprites.bind(GL_SHADER_STORAGE_BUFFER, BINDING_SPRITES);
+                       if (resources.local_media)
+                           resources.local_media.bind(GL_SHADER_STORAGE_BUFFER, BINDING_LOCAL_MEDIA);
+                       shader.set("fade", fade);
+                   },
+               .draw = [count] { draw_sprites(count); }});
     return layers;
 }
 
-Outputs add_resolve(PassList& passes, const PassResources& resources, const Inputs& inputs, const Layers& layers) {
-    const bool chromatic = layers.size() > 1;
-    const gl::TextureDesc desc{.format = GL_RGBA16F, .size = {inputs.size, 1}};
-    Outputs outputs;
-    outputs.scattering = passes.create("volumetrics/scattering", desc);
-    if (chromatic) outputs.transmittance = passes.create("volumetrics/transmittance", desc);
-    const gl::Program& shader =
-        resources.shaders.get(resolve_program, {{"CHROMATIC", chromatic}, {"COUNT_WORK", inputs.count_work}});
-    passes.add(
-        "volumetrics/billboards_resolve",
-        [&](PassBuilder& builder) {
-            for (const TextureRef layer : layers) builder.sample(layer);
-            outputs.scattering = builder.attach_color(outputs.scattering);
-            if (chromatic) outputs.transmittance = builder.attach_color(outputs.transmittance);
-        },
-        [layers, &shader, &resources](const PassContext& context) {
-            gl::apply({});
-            context.bind_framebuffer();
-            const auto layer = [&](std::size_t i) {
-                return context.texture(layers[std::min(i, layers.size() - 1)]);
-            };
-            const BoundTextures bound{
-                {layer(0), resources.nearest}, {layer(1), resources.nearest}, {layer(2), resources.nearest}};
-            shader.use();
-            gl::draw_fullscreen();
-        });
-    return outputs;
+void add_resolve(Frame& frame, const Layers& layers, Estimate& estimate) {
+    const auto layer = [&](std::size_t i) { return layers[std::min(i, layers.size() - 1)]; };
+    frame.add({.name = "volumetrics/billboards_resolve",
+               .program = frame.program(resolve_program),
+               .sources = {{layer(0)}, {layer(1)}, {layer(2)}},
+               .targets = {&estimate.scattering, &estimate.transmittance}});
+}
+
+Estimate add(Frame& frame) {
+    const std::vector<shared::Billboard> sorted = sorted_billboards(frame.inputs, frame.settings, frame.media);
+    gl::Buffer& sprites = frame.kept<Sprites>().buffer;
+    sprites.assign(std::span<const shared::Billboard>(sorted), "volumetrics billboards");
+    Estimate estimate = frame.create_estimate();
+    estimate.sampling = Sampling::per_pixel;
+    add_resolve(frame, add_draw(frame, sprites, static_cast<GLsizei>(sorted.size())), estimate);
+    return estimate;
 }
 
 }  // namespace
 
-Outputs add_billboards(PassList& passes, PassResources& resources, const Inputs& inputs, const Settings& settings,
-                       const FrameMedia& media) {
-    const std::vector<shared::Billboard> sprites = sorted_billboards(inputs, settings, media);
-    resources.sprites.assign(std::span<const shared::Billboard>(sprites), "volumetrics billboards");
-    const Layers layers =
-        add_draw(passes, resources, inputs, settings, media, static_cast<GLsizei>(sprites.size()));
-    return add_resolve(passes, resources, inputs, layers);
+TechniqueDesc billboards() {
+    return {.name = "billboards",
+            .help = "Blends sheets of fog, one light sample each; local media in layers.",
+            .settings = "billboard_",
+            .passes = {"volumetrics/billboards", "volumetrics/billboards_resolve"},
+            .traits = {.sampling = Sampling::per_pixel, .any_resolution = true},
+            .add = add};
 }
 
 }  // namespace tyndall::volumetrics

@@ -1,34 +1,73 @@
+#include "frame/resources.h"
+#include "shaders/shared/bindings.h"
+#include "techniques/froxel_fog.h"
 #include "techniques/froxel_history.h"
-#include "techniques/froxel_passes.h"
+#include "techniques/froxel_steps.h"
+#include "techniques/techniques.h"
+#include "volumetrics/volumetrics.h"
 
 namespace tyndall::volumetrics {
+namespace {
 
-Fog add_froxel_fog(PassList& passes, const PassResources& resources, const Inputs& inputs, const Settings& settings,
-                   const FrameMedia& media, const FroxelMedia& froxels, FroxelHistory& history) {
-    const TextureRef columns =
-        froxels.columns ? froxels.columns : add_froxel_columns(passes, resources, inputs, settings);
-    const bool keeps = keeps_history(inputs, settings, media);
-    if (keeps) history.begin_frame(inputs, settings, media);
-    const FroxelLight light =
-        add_froxel_light(passes, resources, inputs, settings, media, froxels, columns, keeps ? &history : nullptr);
-    TextureRef radiance = light.radiance;
-    if (keeps)
-        radiance = add_froxel_history(passes, resources, inputs, settings, columns, light, history);
-    else
-        passes.skip("volumetrics/froxel_history",
-                    settings.froxel_history > 0 ? "neither sun nor lamps" : "froxel_history is 0");
-    const AccumulatedFroxels accumulated =
-        add_froxel_accumulate(passes, resources, inputs, settings, media, froxels, columns, radiance);
-    return {.columns = columns, .radiance = accumulated.radiance, .optical_depth = accumulated.optical_depth};
+const ProgramDesc program{.name = "volumetrics/froxel_apply",
+                          .stages = {{GL_VERTEX_SHADER, "shaders/volumetrics/techniques/view_ray.vert"},
+                                     {GL_FRAGMENT_SHADER, "shaders/volumetrics/techniques/froxel_apply.frag"}},
+                          .axes = {{"HEIGHT_MEDIA", {0, 1, MAX_HEIGHT_MEDIA}},
+                                   {"LOCAL_MEDIA", {0, 1}},
+                                   {"HAS_SUN", {0, 1}},
+                                   {"CHROMATIC", {0, 1}},
+                                   {"COUNT_WORK", {0, 1}}},
+                          .valid = {}};
+const ProgramRegistry::Registration registration(program);
+
+Estimate add(Frame& frame) {
+    const bool keeps = frame.settings.froxel_history > 0 && (frame.inputs.has_sun || frame.inputs.has_lamps);
+    if (!keeps) frame.kept_by_technique.reset();
+    Estimate estimate = frame.create_estimate();
+    estimate.fog = add_froxel_fog(frame, keeps ? &frame.kept<FroxelHistory>() : nullptr);
+    frame.add({.name = "volumetrics/froxel_apply",
+               .program = frame.program(program),
+               .sources = {{frame.depth}},
+               .fog = estimate.fog,
+               .targets = {&estimate.scattering, &estimate.transmittance},
+               // Behind the end of the froxels there are sun and ambient light, but neither lamps nor shadows.
+               .lit = frame.inputs.has_sun || frame.inputs.has_ambient});
+    return estimate;
 }
 
-Outputs add_froxel(PassList& passes, const PassResources& resources, const Inputs& inputs, const Inputs& low,
-                   const Settings& settings, const FrameMedia& media, const FroxelMedia& froxels,
-                   FroxelHistory& history) {
-    const Fog fog = add_froxel_fog(passes, resources, inputs, settings, media, froxels, history);
-    Outputs outputs = add_froxel_apply(passes, resources, low, media, fog);
-    outputs.fog = fog;
-    return outputs;
+}  // namespace
+
+Fog add_froxel_fog(Frame& frame, FroxelHistory* history) {
+    const FroxelMedia& media = froxel_media(frame);
+    const TextureRef columns = media.columns ? media.columns : add_froxel_columns(frame);
+    if (history != nullptr) history->begin_frame(frame.inputs, frame.settings, frame.media);
+    const FroxelLight light = add_froxel_light(frame, media, columns, history);
+    TextureRef radiance = light.radiance;
+    if (history != nullptr)
+        radiance = add_froxel_history(frame, columns, light, *history);
+    else
+        frame.skip("volumetrics/froxel_history",
+                   frame.settings.froxel_history > 0 ? "neither sun nor lamps" : "froxel_history is 0");
+    return add_froxel_accumulate(frame, media, columns, radiance);
+}
+
+void bind_fog_textures(const PassContext& context, const Fog& fog) {
+    // Where there is no optical depth by channel the shader does not read it, but something must be bound.
+    const TextureRef optical_depth = fog.optical_depth ? fog.optical_depth : fog.radiance;
+    glBindTextureUnit(UNIT_FOG_COLUMNS, context.texture(fog.columns).id);
+    glBindTextureUnit(UNIT_FOG_RADIANCE, context.texture(fog.radiance).id);
+    glBindTextureUnit(UNIT_FOG_OPTICAL_DEPTH, context.texture(optical_depth).id);
+    for (const GLuint unit : {UNIT_FOG_COLUMNS, UNIT_FOG_RADIANCE, UNIT_FOG_OPTICAL_DEPTH}) glBindSampler(unit, 0);
+}
+
+TechniqueDesc froxel() {
+    return {.name = "froxel",
+            .help = "Lights a grid of froxels, which transparents read too; its own history of visibility.",
+            .settings = "froxel",
+            .passes = {"volumetrics/froxel_columns", "volumetrics/inject_media", "volumetrics/froxel_light",
+                       "volumetrics/froxel_history", "volumetrics/froxel_accumulate", "volumetrics/froxel_apply"},
+            .traits = {.any_resolution = true},
+            .add = add};
 }
 
 }  // namespace tyndall::volumetrics

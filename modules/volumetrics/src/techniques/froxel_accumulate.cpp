@@ -1,5 +1,5 @@
-#include "shaders/shared/bindings.h"
-#include "techniques/froxel_passes.h"
+#include "frame/resources.h"
+#include "techniques/froxel_steps.h"
 
 namespace tyndall::volumetrics {
 namespace {
@@ -15,41 +15,17 @@ const ProgramRegistry::Registration registration(program);
 
 }  // namespace
 
-AccumulatedFroxels add_froxel_accumulate(PassList& passes, const PassResources& resources, const Inputs& inputs,
-                                         const Settings& settings, const FrameMedia& media,
-                                         const FroxelMedia& froxels, TextureRef columns, TextureRef radiance) {
-    const bool local = !media.local.empty();
-    AccumulatedFroxels result{.radiance = radiance, .optical_depth = {}};
-    if (local && media.chromatic)
-        result.optical_depth = passes.create("volumetrics/froxel_optical_depth", passes.desc(radiance));
-    const gl::Program& shader = resources.shaders.get(program, {{"HEIGHT_MEDIA", height_media_axis(media)},
-                                                                {"LOCAL_MEDIA", local},
-                                                                {"CHROMATIC", media.chromatic},
-                                                                {"COUNT_WORK", inputs.count_work}});
-    passes.add(
-        "volumetrics/froxel_accumulate",
-        [&](PassBuilder& builder) {
-            builder.sample(columns);
-            builder.sample(froxels.extinction);
-            result.radiance = builder.storage_read_write(radiance);
-            if (result.optical_depth) result.optical_depth = builder.storage_write(result.optical_depth);
-        },
-        [columns, extinction = froxels.extinction, result, &shader, &resources,
-         groups =
-             glm::uvec2((settings.froxels_x + 7) / 8, (settings.froxels_y + 7) / 8)](const PassContext& context) {
-            const auto texture = [&](TextureRef ref) { return ref ? context.texture(ref) : gl::TextureView(); };
-            const BoundTextures bound{{texture(columns), resources.nearest},
-                                      {gl::TextureView(), resources.nearest},
-                                      {texture(extinction), resources.nearest}};
-            glBindImageTexture(0, context.texture(result.radiance).id, 0, GL_TRUE, 0, GL_READ_WRITE, GL_RGBA16F);
-            if (result.optical_depth)
-                glBindImageTexture(1, context.texture(result.optical_depth).id, 0, GL_TRUE, 0, GL_WRITE_ONLY,
-                                   GL_RGBA16F);
-            resources.uniforms.bind(GL_UNIFORM_BUFFER, BINDING_VOLUMETRICS);
-            shader.use();
-            glDispatchCompute(groups.x, groups.y, 1);
-        });
-    return result;
+Fog add_froxel_accumulate(Frame& frame, const FroxelMedia& media, TextureRef columns, TextureRef radiance) {
+    Fog fog{.columns = columns, .radiance = radiance};
+    const gl::TextureDesc desc = frame.passes.desc(radiance);
+    if (media.extinction && frame.media.chromatic)
+        fog.optical_depth = frame.passes.create("volumetrics/froxel_optical_depth", desc);
+    frame.add({.name = "volumetrics/froxel_accumulate",
+               .program = frame.program(program),
+               .sources = {{columns}, {}, {media.extinction}},
+               .images = {{&fog.radiance, true}, {&fog.optical_depth}},
+               .groups = {(desc.size.x + 7) / 8, (desc.size.y + 7) / 8, 1}});
+    return fog;
 }
 
 }  // namespace tyndall::volumetrics

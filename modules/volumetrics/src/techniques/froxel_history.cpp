@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
+#include "frame/resources.h"
 #include "reconstruction/reprojection.h"
-#include "shaders/shared/bindings.h"
-#include "techniques/froxel_passes.h"
+#include "techniques/froxel_steps.h"
 
 namespace tyndall::volumetrics {
 namespace {
@@ -26,17 +26,14 @@ constexpr glm::dvec3 sequence_step{0.8191725133961645, 0.6710436067037893, 0.549
 
 }  // namespace
 
-bool keeps_history(const Inputs& inputs, const Settings& settings, const FrameMedia& media) {
-    return settings.technique == Technique::froxel && settings.froxel_history > 0 && !media.empty() &&
-           (inputs.has_sun || inputs.has_lamps);
-}
-
 void FroxelHistory::begin_frame(const Inputs& inputs, const Settings& settings, const FrameMedia& media) {
     const glm::ivec3 size{settings.froxels_x, settings.froxels_y, settings.froxels_z};
     const gl::TextureDesc desc{.kind = gl::TextureKind::d3, .format = GL_RGBA16, .size = size, .levels = 1};
     visibility_.begin_frame(desc, "volumetrics froxel visibility");
     certainty_.begin_frame(desc, "volumetrics froxel certainty");
-    if (!valid()) frame_ = 0;
+    frame_ = valid() ? frame_ + 1 : 0;
+    previous_ = current_;
+    previous_sun_ = current_sun_;
     const shared::VolumetricsData& data = media.data;
     current_ = {.view = inputs.view,
                 .projection = inputs.projection,
@@ -47,16 +44,8 @@ void FroxelHistory::begin_frame(const Inputs& inputs, const Settings& settings, 
     current_sun_ = inputs.sun_direction;
 }
 
-void FroxelHistory::end_frame() {
-    visibility_.end_frame();
-    certainty_.end_frame();
-    previous_ = current_;
-    previous_sun_ = current_sun_;
-    ++frame_;
-}
-
 std::size_t FroxelHistory::bytes() const {
-    return visibility_.current() ? 4 * gl::byte_size(visibility_.current().desc()) : 0;
+    return visibility_.bytes() + certainty_.bytes();
 }
 
 glm::vec3 FroxelHistory::jitter() const {
@@ -78,52 +67,26 @@ float FroxelHistory::sun_frames() const {
     return sun_turn / std::max(turn, 1e-5F);
 }
 
-TextureRef add_froxel_history(PassList& passes, const PassResources& resources, const Inputs& inputs,
-                              const Settings& settings, TextureRef columns, const FroxelLight& light,
-                              FroxelHistory& history) {
-    const auto import = [&](const gl::Texture& texture, const char* name) {
-        return texture ? passes.import(name, texture) : TextureRef();
-    };
+TextureRef add_froxel_history(Frame& frame, TextureRef columns, const FroxelLight& light, FroxelHistory& history) {
     const int kind = !history.valid() ? 0 : history.still() ? 2 : 1;
-    const TextureRef visibility_before =
-        import(history.visibility().previous(), "volumetrics/froxel_visibility_before");
-    const TextureRef certainty_before =
-        import(history.certainty().previous(), "volumetrics/froxel_certainty_before");
-    TextureRef visibility = import(history.visibility().current(), "volumetrics/froxel_visibility_kept");
-    TextureRef certainty = import(history.certainty().current(), "volumetrics/froxel_certainty_kept");
+    auto [visibility_before, visibility] =
+        frame.passes.import_history("volumetrics/froxel_visibility_kept", history.visibility());
+    auto [certainty_before, certainty] =
+        frame.passes.import_history("volumetrics/froxel_certainty_kept", history.certainty());
     TextureRef radiance = light.radiance;
-    const gl::Program& shader = resources.shaders.get(program, {{"HAS_SUN", inputs.has_sun},
-                                                                {"HAS_LAMPS", inputs.has_lamps},
-                                                                {"HISTORY", kind},
-                                                                {"COUNT_WORK", inputs.count_work}});
-    const glm::ivec3 size{settings.froxels_x, settings.froxels_y, settings.froxels_z};
-    passes.add(
-        "volumetrics/froxel_history",
-        [&](PassBuilder& builder) {
-            for (TextureRef ref :
-                 {columns, light.visibility, light.sun, light.lamps, visibility_before, certainty_before})
-                builder.sample(ref);
-            radiance = builder.storage_read_write(radiance);
-            visibility = builder.storage_write(visibility);
-            certainty = builder.storage_write(certainty);
-        },
-        [=, &shader, &resources, &history, frames = static_cast<float>(settings.froxel_history),
-         groups = glm::uvec3((size + group - 1) / group)](const PassContext& context) {
-            const auto texture = [&](TextureRef ref) { return ref ? context.texture(ref) : gl::TextureView(); };
-            const gl::Sampler& nearest = resources.nearest;
-            const BoundTextures bound{{texture(columns), nearest},           {texture(light.visibility), nearest},
-                                      {texture(light.sun), nearest},         {texture(light.lamps), nearest},
-                                      {texture(visibility_before), nearest}, {texture(certainty_before), nearest}};
-            glBindImageTexture(0, context.texture(radiance).id, 0, GL_TRUE, 0, GL_READ_WRITE, GL_RGBA16F);
-            glBindImageTexture(1, context.texture(visibility).id, 0, GL_TRUE, 0, GL_WRITE_ONLY, GL_RGBA16);
-            glBindImageTexture(2, context.texture(certainty).id, 0, GL_TRUE, 0, GL_WRITE_ONLY, GL_RGBA16);
-            resources.uniforms.bind(GL_UNIFORM_BUFFER, BINDING_VOLUMETRICS);
-            if (kind == 1) history.set_uniforms(shader);
-            shader.set("most_frames", glm::vec2(frames, std::min(frames, history.sun_frames())));
-            shader.use();
-            glDispatchCompute(groups.x, groups.y, groups.z);
-            history.end_frame();
-        });
+    frame.add(
+        {.name = "volumetrics/froxel_history",
+         .program = frame.program(program, {{"HAS_LAMPS", frame.inputs.has_lamps}, {"HISTORY", kind}}),
+         .sources =
+             {{columns}, {light.visibility}, {light.sun}, {light.lamps}, {visibility_before}, {certainty_before}},
+         .images = {{&radiance, true}, {&visibility}, {&certainty}},
+         .set =
+             [&history, kind, frames = static_cast<float>(frame.settings.froxel_history)](
+                 const PassContext&, const gl::Program& shader) {
+                 if (kind == 1) history.set_uniforms(shader);
+                 shader.set("most_frames", glm::vec2(frames, std::min(frames, history.sun_frames())));
+             },
+         .groups = (frame.passes.desc(radiance).size + group - 1) / group});
     return radiance;
 }
 

@@ -1,25 +1,22 @@
 #pragma once
 
 #include "engine/graph/history.h"
-#include "frame/passes.h"
+#include "media/media.h"
+#include "volumetrics/frame.h"
 
 namespace tyndall::volumetrics {
 
 /// What the technique froxel keeps from frame to frame: the share of sun and lamps that is visible in each froxel,
 /// and over how many frames it is a mean. Nothing is kept of the light itself, so none of it lags.
-class FroxelHistory {
+class FroxelHistory : public Kept {
   public:
     /// Once a frame, before the passes are added. Another number of froxels ends the history.
     void begin_frame(const Inputs& inputs, const Settings& settings, const FrameMedia& media);
-    /// The frame was drawn.
-    void end_frame();
-    /// A frame without a history: frees it.
-    void release() { *this = FroxelHistory(); }
 
     [[nodiscard]] bool valid() const { return visibility_.valid() && certainty_.valid(); }
-    [[nodiscard]] const History& visibility() const { return visibility_; }
-    [[nodiscard]] const History& certainty() const { return certainty_; }
-    [[nodiscard]] std::size_t bytes() const;
+    [[nodiscard]] History& visibility() { return visibility_; }
+    [[nodiscard]] History& certainty() { return certainty_; }
+    [[nodiscard]] std::size_t bytes() const override;
 
     /// Where in its froxels this frame samples visibility: 0..1 of the column's width and height (0.5 is the ray),
     /// and the phase of the sequence along the ray, below 0 for the middle. A first frame has no other to be
@@ -45,8 +42,5 @@ class FroxelHistory {
     glm::vec3 previous_sun_{0}, current_sun_{0};
     unsigned frame_ = 0;  ///< since the history began
 };
-
-/// History is on and some light may be shadowed.
-[[nodiscard]] bool keeps_history(const Inputs& inputs, const Settings& settings, const FrameMedia& media);
 
 }  // namespace tyndall::volumetrics

@@ -1,6 +1,6 @@
-#include "shaders/shared/bindings.h"
+#include "frame/resources.h"
 #include "techniques/froxel_history.h"
-#include "techniques/froxel_passes.h"
+#include "techniques/froxel_steps.h"
 
 namespace tyndall::volumetrics {
 namespace {
@@ -22,72 +22,38 @@ const ProgramDesc program{.name = "volumetrics/froxel_light",
                           .valid = is_permutation};
 const ProgramRegistry::Registration registration(program);
 
-/// RUN of froxel_light.comp, and its group size.
-constexpr int run = 8, group_side = 16;
+/// Froxels of a group of froxel_light.comp: its columns, and RUN.
+constexpr glm::ivec3 group{16, 16, 8};
 
 }  // namespace
 
-FroxelLight add_froxel_light(PassList& passes, const PassResources& resources, const Inputs& inputs,
-                             const Settings& settings, const FrameMedia& media, const FroxelMedia& froxels,
-                             TextureRef columns, const FroxelHistory* history) {
+FroxelLight add_froxel_light(Frame& frame, const FroxelMedia& media, TextureRef columns,
+                             const FroxelHistory* history) {
+    const Settings& settings = frame.settings;
     const glm::ivec3 size{settings.froxels_x, settings.froxels_y, settings.froxels_z};
-    const gl::TextureDesc desc{.kind = gl::TextureKind::d3, .format = GL_RGBA16F, .size = size, .levels = 1};
-    FroxelLight light;
-    light.radiance = passes.create("volumetrics/froxel_radiance", desc);
-    if (history) {
-        light.visibility = passes.create("volumetrics/froxel_visibility", desc);
-        if (inputs.has_sun) light.sun = passes.create("volumetrics/froxel_sun", desc);
-        if (inputs.has_lamps) light.lamps = passes.create("volumetrics/froxel_lamps", desc);
-    }
-    const bool local = !media.local.empty();
-    const int lamps = 1 + static_cast<int>(settings.lamp_integration);
-    const gl::Program& shader = resources.shaders.get(program, {{"HEIGHT_MEDIA", height_media_axis(media)},
-                                                                {"LOCAL_MEDIA", local},
-                                                                {"HAS_SUN", inputs.has_sun},
-                                                                {"LAMPS", inputs.has_lamps ? lamps : 0},
-                                                                {"CHROMATIC", media.chromatic},
-                                                                {"FROXEL_HISTORY", history != nullptr},
-                                                                {"LIGHT_VOLUMES", resources.light_volumes.axis()},
-                                                                {"COUNT_WORK", inputs.count_work}});
-    const bool lit = inputs.has_sun || inputs.has_lamps || inputs.has_ambient;
-    passes.add(
-        "volumetrics/froxel_light",
-        [&](PassBuilder& builder) {
-            builder.sample(columns);
-            builder.sample(froxels.scattering);
-            builder.sample(froxels.extinction);
-            builder.sample(froxels.emission);
-            resources.light_volumes.sample(builder);
-            if (lit) {
-                for (TextureRef texture : inputs.light_textures) builder.sample(texture);
-                for (BufferRef buffer : inputs.light_buffers) builder.read(buffer);
-            }
-            for (TextureRef* ref : {&light.radiance, &light.visibility, &light.sun, &light.lamps})
-                if (*ref) *ref = builder.storage_write(*ref);
-        },
-        [froxels, columns, light, history, bind_lighting = lit ? inputs.bind_lighting : nullptr, &shader,
-         &resources, local, emits = media.local_emission,
-         groups = glm::uvec3((size + glm::ivec3(group_side, group_side, run) - 1) /
-                             glm::ivec3(group_side, group_side, run))](const PassContext& context) {
-            const auto texture = [&](TextureRef ref) { return ref ? context.texture(ref) : gl::TextureView(); };
-            if (bind_lighting) bind_lighting();
-            const BoundTextures bound{{texture(columns), resources.nearest},
-                                      {texture(froxels.scattering), resources.nearest},
-                                      {texture(froxels.extinction), resources.nearest},
-                                      {texture(emits ? froxels.emission : froxels.scattering), resources.nearest}};
-            GLuint unit = 0;
-            for (TextureRef ref : {light.radiance, light.visibility, light.sun, light.lamps}) {
-                if (ref)
-                    glBindImageTexture(unit, context.texture(ref).id, 0, GL_TRUE, 0, GL_WRITE_ONLY, GL_RGBA16F);
-                ++unit;
-            }
-            resources.uniforms.bind(GL_UNIFORM_BUFFER, BINDING_VOLUMETRICS);
-            resources.light_volumes.bind();
-            if (local) shader.set("local_emission", emits ? 1 : 0);
-            if (history) shader.set("visibility_jitter", history->jitter());
-            shader.use();
-            glDispatchCompute(groups.x, groups.y, groups.z);
-        });
+    const auto create = [&](const char* name, bool wanted) {
+        const gl::TextureDesc desc{.kind = gl::TextureKind::d3, .format = GL_RGBA16F, .size = size};
+        return wanted ? frame.passes.create(name, desc) : TextureRef{};
+    };
+    const bool keeps = history != nullptr;
+    FroxelLight light{.radiance = create("volumetrics/froxel_radiance", true),
+                      .visibility = create("volumetrics/froxel_visibility", keeps),
+                      .sun = create("volumetrics/froxel_sun", keeps && frame.inputs.has_sun),
+                      .lamps = create("volumetrics/froxel_lamps", keeps && frame.inputs.has_lamps)};
+    const bool local = !frame.media.local.empty(), emits = frame.media.local_emission;
+    frame.add({.name = "volumetrics/froxel_light",
+               .program = frame.program(program, {{"FROXEL_HISTORY", keeps}}),
+               .sources =
+                   {{columns}, {media.scattering}, {media.extinction}, {emits ? media.emission : media.scattering}},
+               .images = {{&light.radiance}, {&light.visibility}, {&light.sun}, {&light.lamps}},
+               .lit = true,
+               .light_volumes = true,
+               .set =
+                   [local, emits, history](const PassContext&, const gl::Program& shader) {
+                       if (local) shader.set("local_emission", emits ? 1 : 0);
+                       if (history != nullptr) shader.set("visibility_jitter", history->jitter());
+                   },
+               .groups = (size + group - 1) / group});
     return light;
 }
 

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/gtc/constants.hpp>
+
+#include "media/shape.h"
 
 namespace tyndall::volumetrics {
 namespace {
@@ -40,16 +41,10 @@ void add_level(const Inputs& inputs, const Settings& settings, int level, int si
                        .reach = {level == 0 ? 0.0 : 0.5 * reach, reach}});
 }
 
-float volume_of(const shared::LocalMedium& medium) {
-    const glm::vec4& extent = medium.extent_softness;
-    const bool box = static_cast<int>(medium.sigma_a_shape.w) == SHAPE_BOX;
-    return extent.x * extent.y * extent.z * (box ? 8.0F : 4.0F / 3.0F * glm::pi<float>());
-}
-
 /// Optical cross-section [m²]: of equal particles this gives each its number. One that only emits counts a little.
 float cross_section(const shared::LocalMedium& medium) {
     const glm::vec3 sigma_t = glm::vec3(medium.sigma_s_g) + glm::vec3(medium.sigma_a_shape);
-    return volume_of(medium) * std::max((sigma_t.r + sigma_t.g + sigma_t.b) / 3, 1e-3F);
+    return volume(medium) * std::max((sigma_t.r + sigma_t.g + sigma_t.b) / 3, 1e-3F);
 }
 
 void add_local(const Inputs& inputs, const Settings& settings, const FrameMedia& media,
@@ -59,11 +54,11 @@ void add_local(const Inputs& inputs, const Settings& settings, const FrameMedia&
     for (std::size_t i = 0; i < media.local.size(); ++i) {
         const double share = cross_section(media.local[i]) / total;
         const double count = std::max(32.0, std::floor(share * settings.particle_local_count));
-        const float volume = volume_of(media.local[i]) / static_cast<float>(count);
+        const float particle_volume = volume(media.local[i]) / static_cast<float>(count);
         batches.push_back({.medium = static_cast<int>(i),
                            .count = static_cast<std::uint32_t>(count),
-                           .radius = settings.particle_size * std::cbrt(volume),
-                           .volume = volume,
+                           .radius = settings.particle_size * std::cbrt(particle_volume),
+                           .volume = particle_volume,
                            .drift = static_cast<float>(std::fmod(drifted(inputs, settings), 1e5))});
     }
 }

@@ -1,6 +1,8 @@
-#include "reconstruction/reconstruction.h"
-#include "techniques/fog_pass.h"
+#include "frame/resources.h"
+#include "techniques/analytic_fog.h"
+#include "techniques/techniques.h"
 
+// See shaders/volumetrics/techniques/radial_shafts.frag and radial_visibility.frag.
 namespace tyndall::volumetrics {
 namespace {
 
@@ -23,32 +25,47 @@ const ProgramDesc program{
     .valid = {}};
 const ProgramRegistry::Registration registration(program);
 
-/// R16F in `scattering`: the sun's share over each pixel's ray.
-Outputs add_visibility(PassList& passes, const PassResources& resources, const Inputs& inputs,
-                       const Settings& settings, const FrameMedia& media, TemporalHistory& history) {
-    Permutation permutation = fog_permutation(inputs, media);
-    permutation["INTERVALS"] = settings.radial_occlusion == RadialOcclusion::intervals;
-    const Inputs low = add_depth_downsample(passes, resources, inputs, settings);
-    Outputs visibility;
-    visibility.scattering =
-        passes.create("volumetrics/radial_visibility", {.format = GL_R16F, .size = {low.size, 1}});
-    const gl::Program& shader = resources.shaders.get(visibility_program, permutation);
-    visibility = add_fog_pass(passes, resources, low, {"volumetrics/radial_visibility", shader, {}, visibility});
-    return add_reconstruction(passes, resources, inputs, low, settings, visibility, history);
+/// The sun's visible share over each pixel's ray.
+TextureRef add_visibility(Frame& frame) {
+    const bool intervals = frame.settings.radial_occlusion == RadialOcclusion::intervals;
+    TextureRef share = frame.create("volumetrics/sun_share");
+    frame.add({.name = "volumetrics/radial_visibility",
+               .program = frame.program(visibility_program, {{"INTERVALS", intervals}}),
+               .sources = {{frame.depth}},
+               .targets = {&share},
+               .lit = true});
+    return share;
+}
+
+/// The sun of the fog is all that has shafts. Fog itself is a closed form, at the host's resolution.
+Estimate add(Frame& frame) {
+    if (!frame.inputs.has_sun) {
+        for (const char* name : {"volumetrics/radial_visibility", "volumetrics/radial_shafts"})
+            frame.skip(name, "no sun");
+        return add_analytic_fog(frame);
+    }
+    frame.skip("volumetrics/analytic_fog", "there is a sun");
+    Estimate estimate = frame.create_host_estimate();
+    Part sun{.light = frame.passes.create("volumetrics/sun", frame.passes.desc(estimate.scattering)),
+             .share = add_visibility(frame)};
+    frame.add({.name = "volumetrics/radial_shafts",
+               .program = frame.program(program),
+               .sources = {{frame.inputs.depth}},
+               .targets = {&estimate.scattering, &sun.light, &estimate.transmittance},
+               .lit = true});
+    estimate.parts.push_back(sun);
+    return estimate;
 }
 
 }  // namespace
 
-Outputs add_radial_shafts(PassList& passes, PassResources& resources, const Inputs& inputs,
-                          const Settings& settings, const FrameMedia& media, TemporalHistory& history) {
-    passes.skip("volumetrics/analytic_fog", "there is a sun");
-    const Outputs visibility = add_visibility(passes, resources, inputs, settings, media, history);
-    const gl::Program& shader = resources.shaders.get(program, fog_permutation(inputs, media));
-    Outputs outputs = add_fog_pass(
-        passes, resources, inputs,
-        {"volumetrics/radial_shafts", shader, visibility.scattering, fog_targets(passes, inputs, media)});
-    outputs.acceptance = visibility.acceptance;
-    return outputs;
+TechniqueDesc radial_shafts() {
+    return {.name = "radial_shafts",
+            .help = "Analytic fog whose sun is shadowed by what the screen shows; no lamps, no local media.",
+            .settings = "radial_",
+            .passes = {"volumetrics/analytic_fog", "volumetrics/radial_visibility", "volumetrics/radial_shafts"},
+            .traits = {.sampling = Sampling::per_pixel, .any_resolution = true, .local_media = false},
+            .add = add};
 }
 
 }  // namespace tyndall::volumetrics

@@ -1,8 +1,10 @@
-#include "engine/gl/state.h"
-#include "engine/gl/vertex_array.h"
-#include "reconstruction/relight.h"
-#include "shaders/shared/bindings.h"
+#include "frame/resources.h"
+#include "media/froxel_runs.h"
+#include "reconstruction/reconstruction.h"
+#include "techniques/techniques.h"
+#include "volumetrics/frame.h"
 
+// See shaders/volumetrics/techniques/ray_march.frag.
 namespace tyndall::volumetrics {
 namespace {
 
@@ -22,84 +24,70 @@ const ProgramDesc program{.name = "volumetrics/march",
                                    {"LAMPS", {0, 1, 2}},  // 1 + LampIntegration
                                    {"CHROMATIC", {0, 1}},
                                    {"LIGHT_VOLUMES", {0, 1, 2, 3}},
-                                   {"VISIBILITY", {0, 1}},  // see reason_for_light
+                                   {"VISIBILITY", {0, 1}},  // see reason_for_no_parts
                                    {"COUNT_WORK", {0, 1}}},
                           .valid = is_valid};
 const ProgramRegistry::Registration registration(program);
 
-Permutation permutation(const Inputs& inputs, const Settings& settings, const FrameMedia& media,
-                        const LightVolumes& volumes, bool visibility) {
-    const bool local = !media.local.empty();
-    const int lamps = 1 + static_cast<int>(settings.lamp_integration);
-    return {{"HEIGHT_MEDIA", height_media_axis(media)},
-            {"LOCAL_MEDIA", local + (local && media.local_emission)},
-            {"HAS_SUN", inputs.has_sun},
-            {"LAMPS", inputs.has_lamps ? lamps : 0},
-            {"CHROMATIC", media.chromatic},
-            {"LIGHT_VOLUMES", volumes.axis()},
-            {"VISIBILITY", visibility},
-            {"COUNT_WORK", inputs.count_work}};
+const char* reason_for_no_parts(const Frame& frame) {
+    if (const char* reason = volumetrics::reason_for_no_parts(frame.settings)) return reason;
+    if (!frame.inputs.has_sun && !frame.inputs.has_lamps) return "no sun and no lamps";
+    if (frame.inputs.has_lamps && frame.settings.lamp_integration == LampIntegration::center)
+        return "lamp_integration is center: unshadowed light is noisy, too";
+    if (!frame.media.local.empty() && frame.media.chromatic)
+        return "local media in view and extinction is coloured";
+    return nullptr;
 }
 
-Relit create_relit(PassList& passes, const std::string& name, const gl::TextureDesc& desc) {
-    return {passes.create("volumetrics/" + name, desc), passes.create("volumetrics/" + name + "_share", desc)};
+Part create_part(const Frame& frame, const std::string& name) {
+    return {.light = frame.create("volumetrics/" + name), .share = frame.create("volumetrics/" + name + "_share")};
+}
+
+TextureRef add_runs(Frame& frame, const FroxelMedia& froxels, const char* whole) {
+    if (frame.media.local.empty()) whole = "no local medium in view";
+    if (!whole) return add_froxel_runs(frame, froxels);
+    frame.skip("volumetrics/froxel_runs", whole);
+    return {};
+}
+
+Estimate add(Frame& frame) {
+    const char* whole = reason_for_no_parts(frame);
+    const FroxelMedia& froxels = froxel_media(frame);
+    const TextureRef runs = add_runs(frame, froxels, whole);
+    Estimate estimate = frame.create_estimate();
+    std::vector<TextureRef*> targets{&estimate.scattering, &estimate.transmittance};
+    if (whole) {
+        frame.skip("volumetrics/relight", whole);
+        estimate.sampling = Sampling::per_pixel;
+    } else {
+        if (frame.inputs.has_sun) estimate.parts.push_back(create_part(frame, "sun"));
+        if (frame.inputs.has_lamps) estimate.parts.push_back(create_part(frame, "lamps"));
+        for (Part& part : estimate.parts) targets.insert(targets.end(), {&part.light, &part.share});
+    }
+    const bool local = !frame.media.local.empty();
+    frame.add({.name = "volumetrics/march",
+               .program = frame.program(program, {{"LOCAL_MEDIA", local + (local && frame.media.local_emission)},
+                                                  {"VISIBILITY", whole == nullptr}}),
+               .sources = {{frame.depth},
+                           {froxels.scattering, true},
+                           {froxels.extinction, true},
+                           {froxels.emission, true},
+                           {runs}},
+               .targets = targets,
+               .lit = true,
+               .light_volumes = true});
+    return estimate;
 }
 
 }  // namespace
 
-MarchedLight add_march(PassList& passes, const PassResources& resources, const Inputs& inputs,
-                       const Settings& settings, const FrameMedia& media, const FroxelMedia& froxels) {
-    const gl::TextureDesc desc{.format = GL_RGBA16F, .size = {inputs.size, 1}};
-    MarchedLight marched;
-    Outputs& outputs = marched.rest;
-    outputs.scattering = passes.create("volumetrics/scattering", desc);
-    if (media.chromatic) outputs.transmittance = passes.create("volumetrics/transmittance", desc);
-
-    const char* whole = reason_for_light(inputs, settings, media);
-    if (whole) passes.skip("volumetrics/relight", whole);
-    if (!whole && inputs.has_sun) marched.sun = create_relit(passes, "sun", desc);
-    if (!whole && inputs.has_lamps) marched.lamps = create_relit(passes, "lamps", desc);
-
-    const gl::Program& shader =
-        resources.shaders.get(program, permutation(inputs, settings, media, resources.light_volumes, !whole));
-    const bool lit = inputs.has_sun || inputs.has_lamps || inputs.has_ambient;
-    passes.add(
-        "volumetrics/march",
-        [&](PassBuilder& builder) {
-            builder.sample(inputs.depth);
-            builder.sample(froxels.scattering);
-            builder.sample(froxels.extinction);
-            builder.sample(froxels.emission);
-            builder.sample(froxels.runs);
-            resources.light_volumes.sample(builder);
-            if (lit) {
-                for (TextureRef texture : inputs.light_textures) builder.sample(texture);
-                for (BufferRef buffer : inputs.light_buffers) builder.read(buffer);
-            }
-            outputs.scattering = builder.attach_color(outputs.scattering);
-            if (outputs.transmittance) outputs.transmittance = builder.attach_color(outputs.transmittance);
-            for (TextureRef* ref :
-                 {&marched.sun.light, &marched.sun.share, &marched.lamps.light, &marched.lamps.share})
-                if (*ref) *ref = builder.attach_color(*ref);
-        },
-        [froxels, depth = inputs.depth, bind_lighting = lit ? inputs.bind_lighting : nullptr, &shader,
-         &resources](const PassContext& context) {
-            const auto texture = [&](TextureRef ref) { return ref ? context.texture(ref) : gl::TextureView(); };
-            gl::apply({});
-            context.bind_framebuffer();
-            if (bind_lighting) bind_lighting();
-            const BoundTextures bound{{texture(depth), resources.nearest},
-                                      {texture(froxels.scattering), resources.linear},
-                                      {texture(froxels.extinction), resources.linear},
-                                      {texture(froxels.emission), resources.linear},
-                                      {texture(froxels.runs), resources.nearest}};
-            resources.uniforms.bind(GL_UNIFORM_BUFFER, BINDING_VOLUMETRICS);
-            resources.light_volumes.bind();
-            resources.noise.bind();
-            shader.use();
-            gl::draw_fullscreen();
-        });
-    return marched;
+TechniqueDesc ray_march() {
+    return {.name = "ray_march",
+            .help = "Marches each pixel's view ray; only visibility and local media are sampled.",
+            .settings = "step",
+            .passes = {"volumetrics/inject_media", "volumetrics/froxel_runs", "volumetrics/march"},
+            .traits = {.sampling = Sampling::per_pixel, .any_resolution = true},
+            .add = add};
 }
 
 }  // namespace tyndall::volumetrics

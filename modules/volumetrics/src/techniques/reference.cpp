@@ -1,7 +1,9 @@
 #include <algorithm>
 
-#include "frame/passes.h"
+#include "frame/resources.h"
 #include "shaders/shared/bindings.h"
+#include "techniques/techniques.h"
+#include "volumetrics/frame.h"
 
 namespace tyndall::volumetrics {
 namespace {
@@ -66,65 +68,59 @@ int media_steps_per_dispatch(const FrameMedia& media, const Settings& settings) 
     return std::clamp(iterations / (1 + static_cast<int>(media.local.size()) * per_medium), 1, steps_per_part);
 }
 
+/// For reference_lamps.comp: whether a dispatch left lamps for another.
+struct Unfinished : Kept {
+    gl::Buffer buffer{16, "volumetrics unfinished lamps"};
+    [[nodiscard]] std::size_t bytes() const override { return buffer.size(); }
+};
+
+/// Brute force in RGBA32F; the transmittance is always given.
+Estimate add(Frame& frame) {
+    Estimate estimate;
+    estimate.scattering = frame.create("volumetrics/scattering", GL_RGBA32F);
+    estimate.transmittance = frame.create("volumetrics/transmittance", GL_RGBA32F);
+    const Settings& settings = frame.settings;
+    const Reference reference{
+        .media = frame.program(media_program),
+        .lamps = frame.inputs.has_lamps ? &frame.program(lamp_program) : nullptr,
+        .unfinished = frame.kept<Unfinished>().buffer,
+        .steps = (settings.reference_steps + steps_per_part - 1) / steps_per_part * steps_per_part,
+        .steps_per_dispatch = media_steps_per_dispatch(frame.media, settings),
+        .groups = glm::uvec2((frame.size + 7) / 8)};
+    const auto set = [estimate, reference, &resources = frame.resources, has_global = frame.media.has_global,
+                      lamp_samples = settings.reference_lamp_samples, light_steps = settings.reference_light_steps](
+                         const PassContext& context, const gl::Program&) {
+        for (const TextureRef ref : {estimate.scattering, estimate.transmittance})
+            glClearTexImage(context.texture(ref).id, 0, GL_RGBA, GL_FLOAT, nullptr);
+        if (resources.local_media) resources.local_media.bind(GL_SHADER_STORAGE_BUFFER, BINDING_LOCAL_MEDIA);
+        reference.unfinished.bind(GL_SHADER_STORAGE_BUFFER, BINDING_UNFINISHED);
+        for (const gl::Program* program : {&reference.media, reference.lamps}) {
+            if (program == nullptr) continue;
+            program->set("steps", reference.steps);
+            program->set("light_steps", light_steps);
+            program->set("lamp_samples", lamp_samples);
+            program->set("has_global", has_global ? 1 : 0);
+        }
+    };
+    frame.add({.name = "volumetrics/reference",
+               .program = reference.media,
+               .sources = {{frame.depth}},
+               .images = {{&estimate.scattering}, {&estimate.transmittance}},
+               .lit = true,
+               .set = set,
+               .draw = [reference] { reference.run(); }});
+    return estimate;
+}
+
 }  // namespace
 
-Outputs add_reference(PassList& passes, PassResources& resources, const Inputs& inputs, const Settings& settings,
-                      const FrameMedia& media) {
-    const gl::TextureDesc desc{.format = GL_RGBA32F, .size = {inputs.size, 1}};
-    Outputs outputs;
-    outputs.scattering = passes.create("volumetrics/scattering", desc);
-    outputs.transmittance = passes.create("volumetrics/transmittance", desc);
-
-    Permutation axes{{"HEIGHT_MEDIA", height_media_axis(media)},
-                     {"LOCAL_MEDIA", !media.local.empty()},
-                     {"COUNT_WORK", inputs.count_work}};
-    const gl::Program* lamps = inputs.has_lamps ? &resources.shaders.get(lamp_program, axes) : nullptr;
-    axes["HAS_SUN"] = inputs.has_sun;
-    const gl::Program& sun = resources.shaders.get(media_program, axes);
-    const bool lit = inputs.has_sun || inputs.has_lamps || inputs.has_ambient;
-    const Reference reference{
-        .media = sun,
-        .lamps = lamps,
-        .unfinished = resources.unfinished,
-        .steps = (settings.reference_steps + steps_per_part - 1) / steps_per_part * steps_per_part,
-        .steps_per_dispatch = media_steps_per_dispatch(media, settings),
-        .groups = glm::uvec2((inputs.size + 7) / 8)};
-
-    passes.add(
-        "volumetrics/reference",
-        [&](PassBuilder& builder) {
-            builder.sample(inputs.depth);
-            if (lit) {
-                for (TextureRef texture : inputs.light_textures) builder.sample(texture);
-                for (BufferRef buffer : inputs.light_buffers) builder.read(buffer);
-            }
-            outputs.scattering = builder.storage_write(outputs.scattering);
-            outputs.transmittance = builder.storage_write(outputs.transmittance);
-        },
-        [outputs, reference, depth = inputs.depth, bind_lighting = lit ? inputs.bind_lighting : nullptr,
-         lamp_samples = settings.reference_lamp_samples, light_steps = settings.reference_light_steps,
-         has_global = media.has_global, &resources](const PassContext& context) {
-            GLuint unit = 0;
-            for (const TextureRef ref : {outputs.scattering, outputs.transmittance}) {
-                const GLuint image = context.texture(ref).id;
-                glClearTexImage(image, 0, GL_RGBA, GL_FLOAT, nullptr);
-                glBindImageTexture(unit++, image, 0, GL_FALSE, 0, GL_READ_WRITE, GL_RGBA32F);
-            }
-            if (bind_lighting) bind_lighting();
-            const BoundTextures bound{{context.texture(depth), resources.nearest}};
-            resources.uniforms.bind(GL_UNIFORM_BUFFER, BINDING_VOLUMETRICS);
-            if (resources.local_media) resources.local_media.bind(GL_SHADER_STORAGE_BUFFER, BINDING_LOCAL_MEDIA);
-            resources.unfinished.bind(GL_SHADER_STORAGE_BUFFER, BINDING_UNFINISHED);
-            for (const gl::Program* program : {&reference.media, reference.lamps}) {
-                if (program == nullptr) continue;
-                program->set("steps", reference.steps);
-                program->set("light_steps", light_steps);
-                program->set("lamp_samples", lamp_samples);
-                program->set("has_global", has_global ? 1 : 0);
-            }
-            reference.run();
-        });
-    return outputs;
+TechniqueDesc reference() {
+    return {.name = "reference",
+            .help = "Brute force over the engine's shadow maps: slow, and what the others are measured against.",
+            .settings = "reference_",
+            .passes = {"volumetrics/reference"},
+            .traits = {.unseen_local_media = true},
+            .add = add};
 }
 
 }  // namespace tyndall::volumetrics

@@ -2,11 +2,10 @@
 #include <array>
 #include <cmath>
 
-#include "engine/gl/state.h"
 #include "engine/gl/vertex_array.h"
-#include "reconstruction/relight.h"
-#include "shaders/shared/bindings.h"
-#include "techniques/froxel_passes.h"
+#include "frame/resources.h"
+#include "reconstruction/reconstruction.h"
+#include "techniques/techniques.h"
 
 // Sunlight as geometry: a mesh of the volume that the sun does not reach, whose faces are blended with the closed
 // form of what lies before them (shaders/volumetrics/techniques/shaft_faces.frag); lamps as the cones and spheres
@@ -44,11 +43,6 @@ const ProgramDesc resolve_program{
     .valid = [](const Permutation& p) { return p.at("VISIBILITY") == 0 || p.at("LAMPS") != 0; }};
 const ProgramRegistry::Registration resolve_registration(resolve_program);
 
-void read_lighting(PassBuilder& builder, const Inputs& inputs) {
-    for (TextureRef texture : inputs.light_textures) builder.sample(texture);
-    for (BufferRef buffer : inputs.light_buffers) builder.read(buffer);
-}
-
 /// `shaft_cuts` of shaft_sun.glsl. One height medium, or homogeneous ones, need no cut. Cuts begin at half of the
 /// lowest falloff, and end where a homogeneous medium lets nothing through.
 glm::vec4 ray_cuts(const FrameMedia& media, const Settings& settings) {
@@ -67,126 +61,93 @@ glm::vec4 ray_cuts(const FrameMedia& media, const Settings& settings) {
     return {count, first, std::log1p(end / first) / count, end};
 }
 
-TextureRef add_mesh(PassList& passes, const PassResources& resources, const Inputs& inputs,
-                    const Settings& settings) {
-    const glm::ivec2 size{settings.shaft_grid + 1, settings.shaft_grid + 3};
-    TextureRef vertices = passes.create("volumetrics/shaft_vertices", {.format = GL_RGBA32F, .size = {size, 1}});
-    const gl::Program& shader = resources.shaders.get(mesh_program, {{"COUNT_WORK", inputs.count_work}});
-    passes.add(
-        "volumetrics/shaft_mesh",
-        [&](PassBuilder& builder) {
-            read_lighting(builder, inputs);
-            vertices = builder.storage_write(vertices);
-        },
-        [vertices, groups = (size + 7) / 8, bind_lighting = inputs.bind_lighting, &shader,
-         &resources](const PassContext& context) {
-            if (bind_lighting) bind_lighting();
-            glBindImageTexture(0, context.texture(vertices).id, 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_RGBA32F);
-            resources.uniforms.bind(GL_UNIFORM_BUFFER, BINDING_VOLUMETRICS);
-            shader.use();
-            glDispatchCompute(static_cast<GLuint>(groups.x), static_cast<GLuint>(groups.y), 1);
-        });
+TextureRef add_mesh(Frame& frame) {
+    const glm::ivec2 size{frame.settings.shaft_grid + 1, frame.settings.shaft_grid + 3};
+    TextureRef vertices =
+        frame.passes.create("volumetrics/shaft_vertices", {.format = GL_RGBA32F, .size = {size, 1}});
+    frame.add({.name = "volumetrics/shaft_mesh",
+               .program = frame.program(mesh_program),
+               .images = {{&vertices}},
+               .lit = true,
+               .groups = {(size + 7) / 8, 1}});
     return vertices;
 }
 
-TextureRef add_faces(PassList& passes, const PassResources& resources, const Inputs& inputs,
-                     const Settings& settings, const FrameMedia& media, TextureRef vertices) {
+TextureRef add_faces(Frame& frame, TextureRef vertices) {
     // Sums of large terms of both signs: half floats would lose what remains.
-    TextureRef light = passes.create("volumetrics/shaft_light", {.format = GL_RGBA32F, .size = {inputs.size, 1}});
-    const gl::Program& shader = resources.shaders.get(faces_program, {{"HEIGHT_MEDIA", height_media_axis(media)},
-                                                                      {"HAS_SUN", 1},
-                                                                      {"CHROMATIC", media.chromatic},
-                                                                      {"COUNT_WORK", inputs.count_work}});
-    passes.add(
-        "volumetrics/shaft_faces",
-        [&](PassBuilder& builder) {
-            builder.sample(vertices);
-            builder.sample(inputs.depth);
-            read_lighting(builder, inputs);
-            light = builder.attach_color(light);
-        },
-        [vertices, depth = inputs.depth, cuts = ray_cuts(media, settings), grid = settings.shaft_grid,
-         relative_to_clip = inputs.projection * glm::mat4(glm::mat3(inputs.view)),
-         bind_lighting = inputs.bind_lighting, &shader, &resources](const PassContext& context) {
-            // Clamped, not clipped, at the near plane: what lies between it and the eye counts.
-            gl::apply({.blend = gl::Blend::add, .depth_clamp = true});
-            context.bind_framebuffer();
-            constexpr std::array<float, 4> black{};
-            glClearBufferfv(GL_COLOR, 0, black.data());
-            if (bind_lighting) bind_lighting();
-            const BoundTextures bound{{context.texture(vertices), resources.nearest},
-                                      {context.texture(depth), resources.nearest}};
-            resources.uniforms.bind(GL_UNIFORM_BUFFER, BINDING_VOLUMETRICS);
-            shader.set("relative_to_clip", relative_to_clip);
-            shader.set("shaft_cuts", cuts);
-            shader.use();
-            const gl::VertexArray none("volumetrics shaft faces");
-            none.bind();
-            glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 2 * (grid + 3), grid);
-            glBindVertexArray(0);
-        });
+    TextureRef light = frame.create("volumetrics/shaft_light", GL_RGBA32F);
+    const auto set = [cuts = ray_cuts(frame.media, frame.settings),
+                      relative_to_clip = frame.inputs.projection * glm::mat4(glm::mat3(frame.inputs.view))](
+                         const PassContext&, const gl::Program& shader) {
+        constexpr std::array<float, 4> black{};
+        glClearBufferfv(GL_COLOR, 0, black.data());
+        shader.set("relative_to_clip", relative_to_clip);
+        shader.set("shaft_cuts", cuts);
+    };
+    const auto draw = [grid = frame.settings.shaft_grid] {
+        const gl::VertexArray none("volumetrics shaft faces");
+        none.bind();
+        glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 2 * (grid + 3), grid);
+        glBindVertexArray(0);
+    };
+    frame.add({.name = "volumetrics/shaft_faces",
+               .program = frame.program(faces_program),
+               .sources = {{vertices}, {frame.depth}},
+               .targets = {&light},
+               .lit = true,
+               // Clamped, not clipped, at the near plane: what lies between it and the eye counts.
+               .state = {.blend = gl::Blend::add, .depth_clamp = true},
+               .set = set,
+               .draw = draw});
     return light;
 }
 
-MarchedLight add_resolve(PassList& passes, const PassResources& resources, const Inputs& inputs,
-                         const Settings& settings, const FrameMedia& media, TextureRef face_light) {
-    const gl::TextureDesc desc{.format = GL_RGBA16F, .size = {inputs.size, 1}};
-    MarchedLight marched;
-    Outputs& outputs = marched.rest;
-    Relit& lamps = marched.lamps;
-    outputs.scattering = passes.create("volumetrics/scattering", desc);
-    if (media.chromatic) outputs.transmittance = passes.create("volumetrics/transmittance", desc);
+Estimate add_resolve(Frame& frame, TextureRef face_light) {
+    Estimate estimate = frame.create_estimate();
+    std::vector<TextureRef*> targets{&estimate.scattering, &estimate.transmittance};
     // Of all that is drawn here the lamps' visibility alone has noise.
-    if (const char* whole = inputs.has_lamps ? reason_for_light(settings) : "no lamps")
-        passes.skip("volumetrics/relight", whole);
+    const bool lamps = frame.inputs.has_lamps;
+    const char* whole = lamps ? reason_for_no_parts(frame.settings) : "no lamps";
+    if (whole) {
+        frame.skip("volumetrics/relight", whole);
+        if (lamps) estimate.sampling = Sampling::per_pixel;
+    } else {
+        estimate.parts.push_back(
+            {.light = frame.create("volumetrics/lamps"), .share = frame.create("volumetrics/lamps_share")});
+        targets.insert(targets.end(), {&estimate.parts[0].light, &estimate.parts[0].share});
+    }
+    frame.add(
+        {.name = "volumetrics/shaft_resolve",
+         .program = frame.program(resolve_program, {{"LAMPS", lamps ? 2 : 0}, {"VISIBILITY", whole == nullptr}}),
+         .sources = {{frame.depth}, {face_light}},
+         .targets = targets,
+         .lit = true,
+         .set = [cuts = ray_cuts(frame.media, frame.settings), parts = frame.settings.shaft_lamp_parts](
+                    const PassContext&, const gl::Program& shader) {
+             shader.set("shaft_cuts", cuts);
+             shader.set("shaft_lamp_parts", parts);
+         }});
+    return estimate;
+}
+
+Estimate add(Frame& frame) {
+    TextureRef light;
+    if (frame.inputs.has_sun)
+        light = add_faces(frame, add_mesh(frame));
     else
-        lamps = {passes.create("volumetrics/lamps", desc), passes.create("volumetrics/lamps_share", desc)};
-    const gl::Program& shader = resources.shaders.get(resolve_program, {{"HEIGHT_MEDIA", height_media_axis(media)},
-                                                                        {"HAS_SUN", inputs.has_sun},
-                                                                        {"LAMPS", inputs.has_lamps ? 2 : 0},
-                                                                        {"CHROMATIC", media.chromatic},
-                                                                        {"VISIBILITY", static_cast<bool>(lamps)},
-                                                                        {"COUNT_WORK", inputs.count_work}});
-    const bool lit = inputs.has_sun || inputs.has_lamps || inputs.has_ambient;
-    passes.add(
-        "volumetrics/shaft_resolve",
-        [&](PassBuilder& builder) {
-            builder.sample(inputs.depth);
-            builder.sample(face_light);
-            if (lit) read_lighting(builder, inputs);
-            outputs.scattering = builder.attach_color(outputs.scattering);
-            for (TextureRef* ref : {&outputs.transmittance, &lamps.light, &lamps.share})
-                if (*ref) *ref = builder.attach_color(*ref);
-        },
-        [face_light, depth = inputs.depth, cuts = ray_cuts(media, settings), parts = settings.shaft_lamp_parts,
-         bind_lighting = lit ? inputs.bind_lighting : nullptr, &shader, &resources](const PassContext& context) {
-            gl::apply({});
-            context.bind_framebuffer();
-            if (bind_lighting) bind_lighting();
-            const BoundTextures bound{
-                {context.texture(depth), resources.nearest},
-                {face_light ? context.texture(face_light) : gl::TextureView(), resources.nearest}};
-            resources.uniforms.bind(GL_UNIFORM_BUFFER, BINDING_VOLUMETRICS);
-            resources.noise.bind();
-            shader.set("shaft_cuts", cuts);
-            shader.set("shaft_lamp_parts", parts);
-            shader.use();
-            gl::draw_fullscreen();
-        });
-    return marched;
+        for (const char* name : {"volumetrics/shaft_mesh", "volumetrics/shaft_faces"}) frame.skip(name, "no sun");
+    return add_resolve(frame, light);
 }
 
 }  // namespace
 
-MarchedLight add_shaft_geometry(PassList& passes, PassResources& resources, const Inputs& inputs,
-                                const Settings& settings, const FrameMedia& media) {
-    TextureRef light;
-    if (inputs.has_sun)
-        light =
-            add_faces(passes, resources, inputs, settings, media, add_mesh(passes, resources, inputs, settings));
-    else
-        for (const char* name : {"volumetrics/shaft_mesh", "volumetrics/shaft_faces"}) passes.skip(name, "no sun");
-    return add_resolve(passes, resources, inputs, settings, media, light);
+TechniqueDesc shaft_geometry() {
+    return {.name = "shaft_geometry",
+            .help = "Meshes the sun's shadows and blends closed forms at their faces; no local media.",
+            .settings = "shaft_",
+            .passes = {"volumetrics/shaft_mesh", "volumetrics/shaft_faces", "volumetrics/shaft_resolve"},
+            .traits = {.sampling = Sampling::per_pixel, .any_resolution = true, .needs_global_medium = true},
+            .add = add};
 }
 
 }  // namespace tyndall::volumetrics

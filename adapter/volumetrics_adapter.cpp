@@ -1,0 +1,163 @@
+#include "adapter/volumetrics_adapter.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "adapter/acceptance_view.h"
+#include "engine/core/error.h"
+
+namespace tyndall {
+namespace {
+
+volumetrics::GlobalMedium global_medium(const Medium& m) {
+    return {.sigma_s = m.sigma_s,
+            .sigma_a = m.sigma_a,
+            .anisotropy = m.anisotropy,
+            .emission = m.emission,
+            .rayleigh = m.rayleigh,
+            .height = m.height_profile,
+            .base = m.base,
+            .falloff = m.falloff};
+}
+
+volumetrics::Shape shape_of(const Medium& bounded) {
+    switch (bounded.shape) {
+        case Medium::Shape::sphere:
+        case Medium::Shape::ellipsoid:
+            return volumetrics::Shape::ellipsoid;
+        case Medium::Shape::box:
+            return volumetrics::Shape::box;
+        case Medium::Shape::global:
+        case Medium::Shape::height:
+            break;
+    }
+    throw Error(fmt::format("{} medium: a bounded one expected", name_of(bounded.shape)));
+}
+
+volumetrics::LocalMedium local_medium(const Medium& m) {
+    return {.shape = shape_of(m),
+            .center = m.center,
+            .half_extent = m.half_extent,
+            .rotation = m.rotation,
+            .softness = m.softness,
+            .sigma_s = m.sigma_s,
+            .sigma_a = m.sigma_a,
+            .anisotropy = m.anisotropy,
+            .emission = m.emission,
+            .noise_scale = m.noise_scale,
+            .noise_amount = m.noise_amount,
+            .noise_seed = m.noise_seed,
+            .height = m.height_profile,
+            .base = m.base,
+            .falloff = m.falloff};
+}
+
+volumetrics::Inputs view_inputs(const FrameContext& frame) {
+    volumetrics::Inputs inputs;
+    inputs.view = frame.view.view;
+    inputs.projection = frame.view.projection;
+    inputs.eye = frame.view.eye;
+    inputs.znear = frame.view.znear;
+    inputs.size = frame.size;
+    inputs.frame_index = frame.frame_index;
+    inputs.time = frame.time;
+    inputs.count_work = frame.count_work;
+    return inputs;
+}
+
+/// Local media out of view are given too: they may dim the light of what is in view.
+void add_media(volumetrics::Inputs& inputs, const FrameContext& frame) {
+    for (const Medium& medium : frame.scene.media) {
+        if (is_bounded(medium))
+            inputs.local.push_back(local_medium(medium));
+        else if (frame.facts.has_global_medium)
+            inputs.global.push_back(global_medium(medium));
+    }
+}
+
+void add_lights(volumetrics::Inputs& inputs, const FrameContext& frame, const LightSources& sources) {
+    const FrameFacts& facts = frame.facts;
+    inputs.has_sun = facts.has_sun;
+    inputs.sun_direction = glm::vec3(frame.frame.sun_direction);
+    inputs.has_lamps = facts.local_lights_in_view > 0;
+    inputs.has_ambient = facts.has_ambient;
+    for (std::size_t i = 0; i < facts.lamps.size(); ++i) {
+        const Lamp& lamp = facts.lamps[i];
+        if (!lamp.in_view) continue;
+        inputs.lamps.push_back({.index = static_cast<std::uint32_t>(i),
+                                .position = lamp.position,
+                                .range = lamp.range,
+                                .axis = lamp.axis,
+                                .cos_outer = lamp.cos_outer});
+    }
+    inputs.light_textures = sources.textures;
+    inputs.light_buffers = sources.buffers;
+    inputs.bind_lighting = sources.bind;
+}
+
+}  // namespace
+
+bool VolumetricsAdapter::wants_motion(const FrameContext& frame) const {
+    return frame.facts.has_medium() && volumetrics::reads_motion(settings);
+}
+
+void VolumetricsAdapter::add_before_lighting(FrameContext& frame, const GBuffer& gbuffer, bool transparents,
+                                             LightSources& lights) {
+    if (!module_) module_ = std::make_unique<volumetrics::Volumetrics>(frame.shaders);
+    inputs_ = view_inputs(frame);
+    add_media(inputs_, frame);
+    add_lights(inputs_, frame, lights);
+    inputs_.depth = gbuffer.depth;
+    inputs_.motion = gbuffer.motion;
+    inputs_.transparents = transparents;
+    inputs_.acceptance = show_acceptance || std::ranges::count(frame.layers, "acceptance") > 0;
+    module_->prepare(inputs_, settings);
+    const volumetrics::LightTransmittance dimmed = module_->add_light_passes(frame.passes, inputs_, settings);
+    if (!dimmed.any) return;
+    for (const TextureRef volume : {dimmed.sun_volume, dimmed.lamp_volumes})
+        if (volume) lights.textures.push_back(volume);
+    lights.defines["MEDIUM_TRANSMITTANCE"] = inputs_.has_sun || inputs_.has_lamps;
+    lights.defines["LIGHT_VOLUMES"] = dimmed.light_volumes;
+    lights.bind = [this, bind = lights.bind] {
+        bind();
+        module_->bind_uniforms();
+    };
+}
+
+TextureRef VolumetricsAdapter::add_after_lighting(FrameContext& frame, TextureRef color) {
+    outputs_ = module_->add_passes(frame.passes, inputs_, settings);
+    return module_->composite(frame.passes, outputs_, color);
+}
+
+FrameModule::Transparents VolumetricsAdapter::transparents() const {
+    if (!outputs_.fog) return {};
+    return {.declare = [fog = outputs_.fog](PassBuilder& pass) { volumetrics::Volumetrics::sample_fog(pass, fog); },
+            .bind = [this](const PassContext& pass) { module_->bind_fog(pass, outputs_.fog); },
+            .defines = {{"FOG", 1}}};
+}
+
+TextureRef VolumetricsAdapter::add_display(FrameContext& frame, TextureRef display) {
+    if (!show_acceptance || !outputs_.acceptance) return {};
+    return add_acceptance_view(frame, outputs_.acceptance, display);
+}
+
+std::vector<Layer> VolumetricsAdapter::layers() const {
+    const bool in_alpha = !outputs_.transmittance;
+    return {{.name = "scattering", .texture = outputs_.scattering},
+            {.name = "transmittance",
+             .texture = in_alpha ? outputs_.scattering : outputs_.transmittance,
+             .decode = in_alpha ? Layer::alpha : Layer::rgb,
+             .absent = 1},
+            {.name = "acceptance", .texture = outputs_.acceptance, .decode = acceptance_picture}};
+}
+
+void VolumetricsAdapter::forget_history() {
+    if (module_) module_->forget_history();
+}
+
+std::size_t VolumetricsAdapter::persistent_bytes() const {
+    return module_ ? module_->persistent_bytes() : 0;
+}
+
+}  // namespace tyndall

@@ -1,0 +1,36 @@
+#pragma once
+
+#include "engine/render/frame_module.h"
+#include "volumetrics/volumetrics.h"
+
+namespace tyndall {
+
+/// The volumetrics module in a renderer's slot: translates the frame into the module's terms and its results back.
+/// A GL context must be current on destruction if there was a frame.
+class VolumetricsAdapter : public FrameModule {
+  public:
+    volumetrics::Settings settings;  ///< of the next frame
+    bool show_acceptance = false;    ///< the display shows the layer acceptance, while there is a temporal filter
+
+    [[nodiscard]] bool wants_motion(const FrameContext& frame) const override;
+    void add_before_lighting(FrameContext& frame, const GBuffer& gbuffer, bool transparents,
+                             LightSources& lights) override;
+    [[nodiscard]] TextureRef add_after_lighting(FrameContext& frame, TextureRef color) override;
+    [[nodiscard]] Transparents transparents() const override;
+    [[nodiscard]] TextureRef add_display(FrameContext& frame, TextureRef display) override;
+    /// scattering in cd/m² and transmittance 0..1 (0 and 1 without a medium); acceptance, the share of earlier
+    /// frames in each pixel's light (volumetrics::Outputs), from red (none) to green (all of it), black without a
+    /// temporal filter.
+    [[nodiscard]] std::vector<Layer> layers() const override;
+    void forget_history() override;
+
+    /// What the module keeps between frames.
+    [[nodiscard]] std::size_t persistent_bytes() const;
+
+  private:
+    std::unique_ptr<volumetrics::Volumetrics> module_;  ///< from the first frame on
+    volumetrics::Inputs inputs_;                        ///< of this frame
+    volumetrics::Outputs outputs_;                      ///< and what came of them
+};
+
+}  // namespace tyndall

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <optional>
+
+#include "engine/gl/buffer.h"
+#include "engine/gl/sampler.h"
+#include "light/light_volume.h"
+#include "media/froxel_media.h"
+#include "media/media.h"
+#include "reconstruction/noise.h"
+#include "reconstruction/temporal.h"
+
+namespace tyndall::volumetrics {
+
+/// What the passes of all techniques share.
+struct Resources {
+    gl::Sampler nearest, linear;
+    gl::Buffer uniforms, local_media, media_tiles;
+    LightVolumes light_volumes;
+    NoiseSource noise;
+    TemporalHistory temporal;
+    std::optional<FroxelMedia> froxel_media;  ///< of this frame, once a pass asked for it
+
+    void upload(const Settings& settings, FrameMedia& media);
+    /// No medium is in view: frees all but the samplers.
+    void release();
+    [[nodiscard]] std::size_t bytes() const;  ///< held between frames
+};
+
+}  // namespace tyndall::volumetrics
