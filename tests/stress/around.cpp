@@ -51,12 +51,14 @@ Around around(const StressFrame& frame, const std::vector<Layers>& plain, Image 
     if (counts_all_frames(frame)) {
         // A history rounds each of its means by up to 1e-3, up as often as down.
         const Image mean = mean_of(plain, layer);
-        return {0, 3e-3, mean, mean};
+        return {0, 3e-3, 1e-5, mean, mean};
     }
     const Image& first = plain.front().*layer;
     // A low pixel looks through the middle of its block; of local media each ray has noise of its own.
+    // Transmittance changes by more of itself, the less there is of it.
+    const double floor = layer == &Layers::transmittance ? 1e-3 : 1e-5;
     const double block = std::ranges::any_of(frame.media, is_bounded) ? 0.1 : 0.02;
-    Around range{radius_of(frame), frame.feature == Feature::low_resolution ? block : 2e-3, first, first};
+    Around range{radius_of(frame), frame.feature == Feature::low_resolution ? block : 2e-3, floor, first, first};
     for (const Layers& layers : plain)
         for (std::size_t k = 0; k < first.pixels.size(); ++k) {
             range.least.pixels[k] = std::min(range.least.pixels[k], (layers.*layer).pixels[k]);
@@ -77,7 +79,8 @@ double compare_around(const Around& range, const Image& value, std::string& wher
                         least = std::min(least, range.least.at(i, j)[c]);
                         most = std::max(most, range.most.at(i, j)[c]);
                     }
-                const double v = value.at(x, y)[c], slack = range.relative * static_cast<double>(most) + 1e-5;
+                const double v = value.at(x, y)[c],
+                             slack = range.relative * static_cast<double>(most) + range.floor;
                 const double excess = std::max(v - most, least - v) / slack;
                 if (excess <= worst) continue;
                 worst = std::isnan(excess) ? std::numeric_limits<double>::infinity() : excess;

@@ -9,9 +9,9 @@ namespace tyndall::stress {
 /// gives around the pixel, with weights that are positive and sum to 1. A history that counts its frames and
 /// forgets none is their mean at the pixel.
 struct Around {
-    int radius = 0;       ///< px
-    double relative = 0;  ///< slack
-    Image least, most;    ///< of the plain frames, or their mean
+    int radius = 0;                  ///< px
+    double relative = 0, floor = 0;  ///< slack
+    Image least, most;               ///< of the plain frames, or their mean
 };
 /// The history is the mean of all frames.
 [[nodiscard]] bool counts_all_frames(const StressFrame& frame);

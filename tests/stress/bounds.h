@@ -22,6 +22,7 @@ struct Bound {
 /// The filter and the mean over frames see the visible share of light alone.
 [[nodiscard]] bool filters_shares(const StressFrame& frame);
 /// Why the featured picture is no mean of plain ones; empty: it is.
+[[nodiscard]] std::string light_differs_from_plain(const StressFrame& frame);
 [[nodiscard]] std::string differs_from_plain(const StressFrame& frame, bool shadows);
 
 }  // namespace tyndall::stress

@@ -89,8 +89,8 @@ Medium draw_comparable_local(bool first, const StressFrame& frame, const Structu
     medium.center = random.chance(0.2) ? frame.view.eye : before_camera(frame.view, logarithmic(random, 2, 15));
     if (!first) medium.center = origin + random.box(8);
     const auto length = [&] { return logarithmic(random, 1, 6); };
-    medium.half_extent = medium.shape == Medium::Shape::sphere ? glm::vec3(length())
-                                                               : glm::vec3{length(), length(), length()};
+    medium.half_extent =
+        medium.shape == Medium::Shape::sphere ? glm::vec3(length()) : glm::vec3{length(), length(), length()};
     if (medium.shape == Medium::Shape::box) medium.half_extent *= 0.5f;
     medium.rotation =
         glm::angleAxis(static_cast<float>(random.linear(0, 2 * std::numbers::pi)), random.direction());

@@ -50,13 +50,20 @@ void moderate_structure(Structure& s, int turn, Random& random) {
     if (!s.homogeneous && s.heights == 0 && (!t.local || random.chance(0.5))) s.heights = 1;
     s.options.volumetrics.technique = t.technique;
     v.lamp_integration = volumetrics::LampIntegration::segment;
+    if (s.options.volumetrics.technique == "particles") v.phase = volumetrics::PhaseFunction::henyey_greenstein;
 }
 
 void moderate_visit(Structure& s, int visit) {
     const std::string technique = s.options.volumetrics.technique;
+    if ((technique == "analytic_fog" || technique == "radial_shafts") && visit % 2 == 0) {
+        s.heights =
+            std::min(s.heights, 1);  // see bounds.cpp for what more of them meet, and for what is off screen
+        if (technique == "radial_shafts") s.world = World::nothing;
+    }
     const bool sprites = technique == "billboards" || technique == "particles";
     if (!(sprites || technique == "froxel") || visit / 2 % 2 == 1) return;
     s.local = false;
+    if (technique == "particles") s.heights = 0;
     if (s.heights == 0) s.homogeneous = true;
     if (sprites) {
         s.lamps = false;
@@ -70,6 +77,12 @@ void moderate_frame(StressFrame& frame, int visit, Random& of_sequence, Random& 
     frame.feature = all[static_cast<std::size_t>(visit) % all.size()];
     const bool local = std::ranges::any_of(frame.media, is_bounded);
 
+    if (frame.options.volumetrics.technique == "particles" && !local)
+        for (Medium& medium : frame.media) {  // what particles are exact for: see bounds.cpp
+            medium.anisotropy = 0;
+            medium.rayleigh = false;
+        }
+
     v.steps = static_cast<int>(random.logarithmic(local ? 64 : 24, 128));
     v.max_distance = static_cast<float>(random.logarithmic(90, local ? 120 : 400));
     v.stepping_strength = std::min(v.stepping_strength, 4.0f);
@@ -77,17 +90,18 @@ void moderate_frame(StressFrame& frame, int visit, Random& of_sequence, Random& 
         of_sequence.pick({volumetrics::DepthDistribution::linear, volumetrics::DepthDistribution::exponential,
                           volumetrics::DepthDistribution::logarithmic});
     const bool lit = frame.options.volumetrics.technique == "froxel";
-    v.froxels_x = v.froxels_y = lit ? 31 : 17;
-    v.froxels_z = lit ? 95 : 191;
+    v.froxels_x = v.froxels_y = lit ? 25 : 17;
+    v.froxels_z = lit ? 79 : 191;
     v.froxel_far = lit ? 100.0f : 40.0f;
     v.froxel_history = frame.feature == Feature::history ? 2 + of_sequence.below(100) : 0;
-    v.sun_volume_size = 64;
-    v.lamp_volume_size = 24;
+    v.sun_volume_size = 48;
+    v.lamp_volume_size = 16;
     v.lamp_volume_count = 64;
     v.billboard_layers = std::max(v.billboard_layers, 8);
     v.billboard_local_layers = std::max(v.billboard_local_layers, 16);
     v.billboard_fade = 0;
     v.particle_count = v.particle_local_count = 4096;
+    if (random.chance(0.7)) v.particle_size = std::max(v.particle_size, least_particle_size);
     v.reference_steps = 512;
     v.reference_lamp_samples = 16;
     v.reference_light_steps = 16;

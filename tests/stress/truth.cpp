@@ -55,7 +55,8 @@ Truth::Truth(const StressFrame& frame, Scene scene)
                                  .black_sky = true,
                                  .tolerance = 1e-4};
     open_ = std::make_unique<reference::Reference>(scene_, settings);
-    if (!frame.options.render.shadows || !knows(frame.options.volumetrics.technique).shadow_maps || !casts_shadows(scene_))
+    if (!frame.options.render.shadows || !knows(frame.options.volumetrics.technique).shadow_maps ||
+        !casts_shadows(scene_))
         return;
     settings.shadows = true;
     shadowed_ = std::make_unique<reference::Reference>(scene_, settings);
