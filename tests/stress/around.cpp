@@ -44,21 +44,27 @@ Image mean_of(const std::vector<Layers>& frames, Image Layers::*layer) {
 bool counts_all_frames(const StressFrame& frame) {
     const volumetrics::Settings& v = frame.options.volumetrics;
     return frame.feature == Feature::history && frame.options.volumetrics.technique != "froxel" &&
-           v.temporal == volumetrics::Temporal::accumulate && !v.temporal_clip && !v.temporal_reject;
+           v.temporal == volumetrics::Temporal::accumulate && v.temporal_frames >= history_frames &&
+           !v.temporal_clip && !v.temporal_reject;
 }
 
 Around around(const StressFrame& frame, const std::vector<Layers>& plain, Image Layers::*layer) {
     if (counts_all_frames(frame)) {
         // A history rounds each of its means by up to 1e-3, up as often as down.
         const Image mean = mean_of(plain, layer);
-        return {0, 3e-3, 1e-5, mean, mean};
+        return {.relative = 3e-3, .floor = 1e-5, .least = mean, .most = mean};
     }
     const Image& first = plain.front().*layer;
     // A low pixel looks through the middle of its block; of local media each ray has noise of its own.
     // Transmittance changes by more of itself, the less there is of it.
     const double floor = layer == &Layers::transmittance ? 1e-3 : 1e-5;
     const double block = std::ranges::any_of(frame.media, is_bounded) ? 0.1 : 0.02;
-    Around range{radius_of(frame), frame.feature == Feature::low_resolution ? block : 2e-3, floor, first, first};
+    Around range{.radius = radius_of(frame),
+                 .relative = frame.feature == Feature::low_resolution ? block : 2e-3,
+                 .floor = floor,
+                 .blocks = frame.feature == Feature::low_resolution,
+                 .least = first,
+                 .most = first};
     for (const Layers& layers : plain)
         for (std::size_t k = 0; k < first.pixels.size(); ++k) {
             range.least.pixels[k] = std::min(range.least.pixels[k], (layers.*layer).pixels[k]);
@@ -79,6 +85,12 @@ double compare_around(const Around& range, const Image& value, std::string& wher
                         least = std::min(least, range.least.at(i, j)[c]);
                         most = std::max(most, range.most.at(i, j)[c]);
                     }
+                const int to_border = std::min({x, y, value.size.x - 1 - x, value.size.y - 1 - y});
+                if (range.blocks && to_border < range.radius) {  // a block's middle may lie outside
+                    const float beyond = 0.5f * (most - least);
+                    least -= beyond;
+                    most += beyond;
+                }
                 const double v = value.at(x, y)[c],
                              slack = range.relative * static_cast<double>(most) + range.floor;
                 const double excess = std::max(v - most, least - v) / slack;

@@ -11,8 +11,11 @@ namespace tyndall::stress {
 struct Around {
     int radius = 0;                  ///< px
     double relative = 0, floor = 0;  ///< slack
+    bool blocks = false;             ///< of a low resolution
     Image least, most;               ///< of the plain frames, or their mean
 };
+/// Of a comparison of histories.
+constexpr int history_frames = 3;
 /// The history is the mean of all frames.
 [[nodiscard]] bool counts_all_frames(const StressFrame& frame);
 [[nodiscard]] Around around(const StressFrame& frame, const std::vector<Layers>& plain, Image Layers::*layer);

@@ -18,7 +18,7 @@ constexpr const char* fault_limit =
     "fault: light beyond 65504 is cut off before filters, means and up-sampling take their share of it";
 constexpr const char* fault_density =
     "fault: local emission and extinction beyond 65504 are cut off in froxels, so that their ratio is lost";
-constexpr int pixels_per_frame = 4, history_frames = 3;
+constexpr int pixels_per_frame = 4;
 
 double mean_of(const Image& image) {
     double sum = 0;
