@@ -18,6 +18,7 @@ constexpr const char* fault_limit =
     "fault: light beyond 65504 is cut off before filters, means and up-sampling take their share of it";
 constexpr const char* fault_density =
     "fault: local emission and extinction beyond 65504 are cut off in froxels, so that their ratio is lost";
+constexpr const char* dark = "dark: no light, so that it is certain that there is none and nothing else";
 constexpr int pixels_per_frame = 4;
 
 double mean_of(const Image& image) {
@@ -93,10 +94,17 @@ void compare_with_truth(const StressFrame& frame, const Truth& truth, const Laye
         const float* value = layers.scattering.at(at.x, at.y);
         if (!truth.has_shadows()) {
             open.add("scattering", at, value, pixel.open.scattering, s, s.floor * mean + 1e-5);
+            if (pixel.open.scattering == dvec3(0)) {
+                --open.pixels;
+                tally.leave_out(dark, 1);
+            }
             continue;
         }
         const dvec3 right = truth.shadowed(pixel.ray);
-        ++shadow_pixels;
+        if (pixel.open.scattering == dvec3(0))
+            tally.leave_out(dark, 1);
+        else
+            ++shadow_pixels;
         for (int c = 0; c < 3; ++c) {
             shadow_error += std::abs(value[c] - right[c]);
             light += pixel.open.scattering[c];
