@@ -213,7 +213,7 @@ Bound transmittance_bound(const StressFrame& frame, const Truth& truth, const Tr
         if (quantised > 0.02) return left_out(fault_slices);
         return {half + quantised, half};
     }
-    if (technique == "billboards") return {half + 0.5 * local, half};
+    if (technique == "billboards") return {half + 0.25 * local, half};  // measured: 0.095
     if (technique == "particles")
         return left_out("limit: particles have the transmittance of local media in the mean of a picture");
     return {2 * half, half};
@@ -246,7 +246,7 @@ Bound scattering_bound(const StressFrame& frame, const Truth& truth, const Truth
         if (v.particle_size < least_particle_size) return left_out(fault_uncovered);
     } else if (technique == "billboards") {
         if (lamps || local > 0) return left_out(limit_sprites);
-        bound.relative += 0.3;
+        bound.relative += 0.3;  // measured: 0.18, of eight sheets or more
     } else if (technique == "analytic_fog" || technique == "radial_shafts") {
         const bool screen = technique == "radial_shafts";
         if (screen && (frame.world != World::nothing || v.radial_unseen < 1)) return left_out(limit_screen);
@@ -266,7 +266,7 @@ Bound scattering_bound(const StressFrame& frame, const Truth& truth, const Truth
     return bound;
 }
 
-// Measured where the few pixels lie along a shadow's edge: up to 0.023, with local media 0.124, of the columns of
+// Measured where the few pixels lie along a shadow's edge: up to 0.023, with local media 0.154, of the columns of
 // froxels 0.117.
 double shadow_bound(const StressFrame& frame) {
     const bool coarse =
