@@ -4,13 +4,22 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
-#include "reference/reference.h"
+#include "around.h"
+#include "bounds.h"
+#include "draw_scene.h"
+#include "moderate.h"
 
 namespace tyndall::stress {
 namespace {
 
-constexpr int pixels_per_frame = 3;
+constexpr const char* fault_limit =
+    "fault: light beyond 65504 is cut off before filters, means and up-sampling take their share of it";
+constexpr const char* fault_density =
+    "fault: local emission and extinction beyond 65504 are cut off in froxels, so that their ratio is lost";
+constexpr const char* dark = "dark: no light, so that it is certain that there is none and nothing else";
+constexpr int pixels_per_frame = 4;
 
 double mean_of(const Image& image) {
     double sum = 0;
@@ -18,102 +27,213 @@ double mean_of(const Image& image) {
     return sum / static_cast<double>(image.pixels.size());
 }
 
-bool has_lamp(const StressFrame& frame) {
-    return std::ranges::any_of(frame.lights, [](const auto& lamp) { return lamp.light.type != LightType::sun; });
+/// Local media somewhere emit or absorb more than a half float holds, or close to it.
+bool exceeds_froxels(const Medium& medium) {
+    constexpr float noise = 2;
+    const glm::vec3 sigma_t = medium.sigma_s + medium.sigma_a;
+    const float lowest = medium.center.y - glm::length(medium.half_extent);
+    const float density = medium.height_profile ? std::exp((medium.base - lowest) / medium.falloff) : 1;
+    const float most = std::max(
+        {sigma_t.x, sigma_t.y, sigma_t.z, 2 * medium.emission.x, 2 * medium.emission.y, 2 * medium.emission.z});
+    return is_bounded(medium) && most > 0 && noise * most * density > 0.9f * half_max;
 }
 
-/// Length of the longest segment of a ray, m: the last one.
-double longest_segment(const volumetrics::Settings& settings, double length) {
-    const double n = settings.march.steps;
-    if (settings.march.stepping == volumetrics::Stepping::uniform || n == 1) return length / n;
-    const double growth = settings.march.stepping_strength / (n - 1);
-    return length * std::expm1(growth) / std::expm1(growth * n) * std::exp(settings.march.stepping_strength);
+/// "scattering, local media".
+std::string what(const std::string& layer, const StressFrame& frame) {
+    const bool local =
+        std::ranges::any_of(frame.media, is_bounded) && knows(frame.options.volumetrics.technique).local;
+    return layer + (local ? ", local media" : "");
 }
 
-/// Over the longest segment of a ray that ends `distance` metres away, how often the density of a height medium
-/// grows e-fold.
-double folds(const StressFrame& frame, double direction_y, double distance) {
-    const double length = std::min<double>(distance, frame.options.volumetrics.march.max_distance);
-    double most = 0;
-    for (const Medium& medium : frame.media)
-        if (medium.shape == Medium::Shape::height) most = std::max(most, std::abs(direction_y) / medium.falloff);
-    return most * longest_segment(frame.options.volumetrics, length);
-}
+/// The worst pixel of one comparison.
+struct Worst {
+    int pixels = 0;
+    double error = 0;  ///< over its bound
+    std::string said;
 
-/// See the header.
-bool scattering_is_comparable(const StressFrame& frame, double folds, double distance) {
-    const bool mixture = frame.media.size() > 1;
-    if (folds == 0 || (!mixture && !has_lamp(frame))) return true;
-    return folds <= 1 && (!mixture || distance <= frame.options.volumetrics.march.max_distance);
-}
-
-/// Relative bound of the scattering layer.
-double relative_bound(const StressFrame& frame, double folds) {
-    const double steps = frame.options.volumetrics.march.steps;
-    double bound = 4e-3;
-    if (frame.options.render.ambient > 0) bound += 0.02;
-    if (frame.media.size() > 1) bound += 0.1 * folds;
-    if (has_lamp(frame)) bound += 0.03 + 0.4 / steps;
-    return bound;
-}
-
-struct PixelRay {
-    glm::dvec3 origin, direction;
-    double begin;  ///< m along the ray, where the near plane is
+    void add(const char* layer, glm::ivec2 pixel, const float* value, const dvec3& right, const Bound& bound,
+             double floor) {
+        ++pixels;
+        for (int c = 0; c < 3; ++c) {
+            const double allowed = bound.relative * right[c] + floor;
+            const double off = std::abs(value[c] - std::min<double>(right[c], half_max)) / allowed;
+            if (off <= error) continue;
+            error = std::isnan(off) ? std::numeric_limits<double>::infinity() : off;
+            said = fmt::format(
+                "{} at pixel ({}, {}) channel {} is {}, the ground truth {} with a bound of {:.2g} on "
+                "the error",
+                layer, pixel.x, pixel.y, c, value[c], right[c], allowed);
+        }
+    }
+    void report(const std::string& technique, const std::string& name, Tally& tally, Findings& findings) const {
+        tally.add(technique, name, pixels, error);
+        if (error > 1) findings.push_back(said);
+    }
 };
 
-PixelRay pixel_ray(const View& view, glm::ivec2 size, glm::ivec2 pixel) {
-    const double tan_y = 1 / static_cast<double>(view.projection[1][1]);
-    const double tan_x = 1 / static_cast<double>(view.projection[0][0]);
-    const glm::dvec3 local((2 * (pixel.x + 0.5) / size.x - 1) * tan_x, (1 - 2 * (pixel.y + 0.5) / size.y) * tan_y,
-                           -1);
-    const glm::dmat3 to_world = glm::transpose(glm::dmat3(glm::mat3(view.view)));
-    return {glm::dvec3(view.eye), glm::normalize(to_world * local), view.znear * glm::length(local)};
+void compare_with_truth(const StressFrame& frame, const Truth& truth, const Layers& layers, Random& random,
+                        Tally& tally, Findings& findings) {
+    const double mean = mean_of(layers.scattering);
+    Worst transmittance, open;
+    double shadow_error = 0, light = 0;
+    int shadow_pixels = 0;
+    for (int i = 0; i < pixels_per_frame; ++i) {
+        const glm::ivec2 at(random.below(frame.size.x), random.below(frame.size.y));
+        const Truth::Pixel pixel = truth.trace(at);
+        const Bound t = transmittance_bound(frame, truth, pixel);
+        const Bound s = scattering_bound(frame, truth, pixel);
+        if (t.rule.empty())
+            transmittance.add("transmittance", at, layers.transmittance.at(at.x, at.y), pixel.open.transmittance, t,
+                              t.floor);
+        else
+            tally.leave_out(t.rule, 1);
+        if (!s.rule.empty()) {
+            tally.leave_out(s.rule, 1);
+            continue;
+        }
+        const float* value = layers.scattering.at(at.x, at.y);
+        if (!truth.has_shadows()) {
+            open.add("scattering", at, value, pixel.open.scattering, s, s.floor * mean + 1e-5);
+            if (pixel.open.scattering == dvec3(0)) {
+                --open.pixels;
+                tally.leave_out(dark, 1);
+            }
+            continue;
+        }
+        const dvec3 right = truth.shadowed(pixel.ray);
+        if (pixel.open.scattering == dvec3(0))
+            tally.leave_out(dark, 1);
+        else
+            ++shadow_pixels;
+        for (int c = 0; c < 3; ++c) {
+            shadow_error += std::abs(value[c] - right[c]);
+            light += pixel.open.scattering[c];
+        }
+    }
+    const std::string technique = frame.options.volumetrics.technique;
+    transmittance.report(technique, what("transmittance", frame), tally, findings);
+    open.report(technique, what("scattering", frame), tally, findings);
+    if (shadow_pixels == 0 || light == 0) return;
+    const double error = shadow_error / light / shadow_bound(frame);
+    tally.add(technique, what("scattering with shadows", frame), shadow_pixels, error);
+    if (error > 1)
+        findings.push_back(
+            fmt::format("scattering with shadows is off by {:.3g} of the unshadowed light in the mean "
+                        "of {} pixels, {:.2g} allowed",
+                        shadow_error / light, shadow_pixels, shadow_bound(frame)));
+}
+
+/// Of particles it is that of local media in the mean alone: they are as few as they are drawn here.
+void compare_mean_transmittance(const StressFrame& frame, const Truth& truth, const Layers& layers, Tally& tally,
+                                Findings& findings) {
+    dvec3 value(0), right(0);
+    int pixels = 0;
+    for (int y = 0; y < frame.size.y; ++y)
+        for (int x = y % 2; x < frame.size.x; x += 2, ++pixels) {
+            const float* t = layers.transmittance.at(x, y);
+            value += dvec3(t[0], t[1], t[2]);
+            right += truth.transmittance({x, y});
+        }
+    double worst = 0;
+    for (int c = 0; c < 3; ++c)
+        worst = std::max(worst, std::abs(value[c] - right[c]) / (0.01 * pixels + 0.1 * (pixels - right[c])));
+    tally.add(frame.options.volumetrics.technique, what("mean transmittance", frame), pixels, worst);
+    if (worst > 1)
+        findings.push_back(fmt::format(
+            "mean transmittance is {:.3f} {:.3f} {:.3f}, the ground truth {:.3f} {:.3f} {:.3f}", value.x / pixels,
+            value.y / pixels, value.z / pixels, right.x / pixels, right.y / pixels, right.z / pixels));
+}
+
+void compare_with_plain(const StressFrame& frame, const std::vector<Layers>& plain, const Layers& layers,
+                        Tally& tally, Findings& findings) {
+    static constexpr const char* names[] = {"plain", "filter", "history", "low resolution"};
+    const std::string name = names[static_cast<int>(frame.feature)];
+    double worst = 0;
+    std::string said;
+    const std::string rule = light_differs_from_plain(frame);
+    if (!rule.empty()) tally.leave_out(rule, layers.depth.size.x * layers.depth.size.y);
+    for (Image Layers::*layer : {&Layers::scattering, &Layers::transmittance}) {
+        if (layer == &Layers::scattering && !rule.empty()) continue;
+        std::string where;
+        const double off = compare_around(around(frame, plain, layer), layers.*layer, where);
+        if (off <= worst) continue;
+        worst = off;
+        said = fmt::format("{} of {} at {}", layer == &Layers::scattering ? "scattering" : "transmittance", name,
+                           where);
+    }
+    tally.add(frame.options.volumetrics.technique, what(name, frame), layers.depth.size.x * layers.depth.size.y,
+              worst);
+    if (worst > 1) findings.push_back(said);
 }
 
 }  // namespace
 
-void compare_with_truth(const StressFrame& frame, const Scene& scene, const Layers& layers, Random& random,
-                        Comparison& total, Findings& findings) {
-    const auto& chosen = frame.options.volumetrics;
-    const reference::Settings settings{
-        .light_transmittance = chosen.light.transmittance,
-        .phase = {.kind = static_cast<reference::ParticlePhase::Kind>(chosen.light.phase),
-                  .back_anisotropy = chosen.light.back_anisotropy,
-                  .back_weight = chosen.light.back_weight},
-        .shadows = false,
-        .ambient = frame.options.render.ambient,
-        .black_surfaces = true,
-        .tolerance = 1e-4};
-    const reference::Reference truth(scene, settings);
-    const double mean = mean_of(layers.scattering);
-    ++total.frames;
-    for (int i = 0; i < pixels_per_frame; ++i) {
-        const glm::ivec2 pixel(random.below(frame.size.x), random.below(frame.size.y));
-        const PixelRay ray = pixel_ray(frame.view, frame.size, pixel);
-        const auto expected = truth.trace(ray.origin, ray.direction, ray.begin);
-        const auto compare = [&](const char* name, const Image& image, const glm::dvec3& right, double b,
-                                 double floor) {
-            for (int c = 0; c < 3; ++c) {
-                const double value = image.at(pixel.x, pixel.y)[c];
-                const double error =
-                    std::abs(value - std::min<double>(right[c], half_max)) / (b * right[c] + floor);
-                total.worst = std::max(total.worst, error);
-                if (error <= 1) continue;
-                findings.push_back(
-                    fmt::format("{} at pixel ({}, {}) channel {} is {}, the ground truth {} with a "
-                                "bound of {:.2g} on the error",
-                                name, pixel.x, pixel.y, c, value, right[c], b * right[c] + floor));
-                return;
-            }
-        };
-        compare("transmittance", layers.transmittance, expected.transmittance, 1e-3, 1e-3);
-        const double varies = folds(frame, ray.direction.y, expected.distance);
-        if (!scattering_is_comparable(frame, varies, expected.distance)) continue;
-        const double relative = relative_bound(frame, varies);
-        ++total.pixels;
-        compare("scattering", layers.scattering, expected.scattering, relative, 2e-3 * mean + 1e-5);
+std::vector<Layers> Compare::draw(const StressFrame& frame, const Scene& scene, const StressOptions& options,
+                                  int frames) {
+    Worlds::Place& place = worlds_[frame.world];
+    Renderer& renderer = *place.renderer;
+    place.volumetrics->settings = options.volumetrics;
+    renderer.invalidate_history();
+    std::vector<Layers> all;
+    for (int i = 0; i < frames; ++i) {
+        StressOptions next = options;
+        next.frame_index += static_cast<std::uint32_t>(i);
+        renderer.render(scene, frame.view, frame.size, next);
+        all.push_back(read_layers(renderer));
     }
+    return all;
+}
+
+void Compare::check(const StressFrame& frame, Random random, Findings& findings) {
+    const Scene scene = pose_scene(worlds_[frame.world].scene, frame);
+    const bool featured = frame.feature != Feature::plain;
+    const bool history = frame.feature == Feature::history;
+    const int frames = history ? history_frames : 1;
+    const std::vector<Layers> plain_frames = draw(frame, scene, plain(frame.options), frames);
+    const std::vector<Layers> drawn = featured ? draw(frame, scene, frame.options, frames) : plain_frames;
+    const Truth truth(frame, scene);
+    const bool exact = filters_shares(frame) || (history && frame.options.volumetrics.technique == "froxel");
+    compare_with_truth(frame, truth, exact ? drawn.back() : plain_frames.back(), random, tally, findings);
+    if (frame.options.volumetrics.technique == "particles")
+        compare_mean_transmittance(frame, truth, plain_frames.back(), tally, findings);
+    if (!featured) return;
+    const std::string rule = differs_from_plain(frame, truth.has_shadows());
+    if (rule.empty())
+        compare_with_plain(frame, plain_frames, drawn.back(), tally, findings);
+    else
+        tally.leave_out(rule, frame.size.x * frame.size.y);
+}
+
+void Compare::check_doubled(const StressFrame& frame, Findings& findings) {
+    if (std::ranges::any_of(frame.media, exceeds_froxels)) {
+        tally.leave_out(fault_density, frame.size.x * frame.size.y);
+        return;
+    }
+    Scene scene = pose_scene(worlds_[frame.world].scene, frame);
+    const Layers once = draw(frame, scene, frame.options, 1).back();
+    for (Light& light : scene.lights) light.intensity *= 2;
+    for (Medium& medium : scene.media) medium.emission *= 2;
+    const Layers twice = draw(frame, scene, frame.options, 1).back();
+    const int pixels = frame.size.x * frame.size.y;
+    const float brightest = std::ranges::max(twice.scattering.pixels);
+    const volumetrics::Settings& v = frame.options.volumetrics;
+    const bool of_shares = v.filter.kernel != volumetrics::Filter::none ||
+                           v.temporal.mode != volumetrics::Temporal::off ||
+                           v.resolution.size != volumetrics::Resolution::full || v.technique == "froxel";
+    constexpr float least_share = 1.0f / 225;  // of the widest filter's pixels
+    if (brightest > (of_shares ? 0.9f * least_share : 0.9f) * half_max) {
+        tally.leave_out(fault_limit, pixels);
+        return;
+    }
+    Worst worst;
+    const double mean = mean_of(once.scattering);
+    for (int i = 0; i < pixels; ++i) {
+        const glm::ivec2 at(i % frame.size.x, i / frame.size.x);
+        const float* value = once.scattering.at(at.x, at.y);
+        worst.add("twice the light", at, twice.scattering.at(at.x, at.y), 2.0 * dvec3(value[0], value[1], value[2]),
+                  {1e-3, 0}, 1e-3 * mean + 1e-4);
+    }
+    worst.report(frame.options.volumetrics.technique, what("doubled light", frame), tally, findings);
 }
 
 }  // namespace tyndall::stress

@@ -4,6 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "draw_scene.h"
+
 namespace tyndall::stress {
 namespace {
 

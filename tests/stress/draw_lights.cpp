@@ -33,6 +33,7 @@ StressFrame::Lamp draw_comparable_lamp(const StressFrame& frame, glm::vec3 origi
     light.intensity = draw_intensity(true, random);
     light.range = logarithmic(random, 5, 60);
     light.radius = 0.01f;
+    light.shadow = random.chance(0.8);
     light.outer_cone = static_cast<float>(random.linear(0.3, 1.4));
     light.inner_cone = light.outer_cone * static_cast<float>(random.linear(0, 0.7));
     const bool first = frame.lights.empty();

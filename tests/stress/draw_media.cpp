@@ -49,8 +49,8 @@ float draw_length(Random& random) {
     return sign * usual_or(random, 0.5, 20, 1e-3, 1e3);
 }
 
-Medium draw_local(bool first, const StressFrame& frame, const Structure& structure, glm::vec3 origin,
-                  Random& random) {
+Medium draw_extreme_local(bool first, const StressFrame& frame, const Structure& structure, glm::vec3 origin,
+                          Random& random) {
     Medium medium;
     medium.shape = random.pick({Medium::Shape::sphere, Medium::Shape::ellipsoid, Medium::Shape::box});
     draw_coefficients(medium, first, structure.local_emission, structure, random);
@@ -77,10 +77,46 @@ Medium draw_local(bool first, const StressFrame& frame, const Structure& structu
     return medium;
 }
 
+/// Of a metre or more, and not so dense that what lies behind is unseen.
+Medium draw_comparable_local(bool first, const StressFrame& frame, const Structure& structure, glm::vec3 origin,
+                             Random& random) {
+    Medium medium;
+    medium.shape = random.pick({Medium::Shape::sphere, Medium::Shape::ellipsoid, Medium::Shape::box});
+    draw_coefficients(medium, first, structure.local_emission, structure, random);
+    const glm::vec3 sigma_t = medium.sigma_s + medium.sigma_a;
+    const float density = logarithmic(random, 0.01, 0.15) / std::max({sigma_t.x, sigma_t.y, sigma_t.z});
+    for (glm::vec3* coefficient : {&medium.sigma_s, &medium.sigma_a}) *coefficient *= density;
+    medium.center = random.chance(0.2) ? frame.view.eye : before_camera(frame.view, logarithmic(random, 2, 15));
+    if (!first) medium.center = origin + random.box(8);
+    const auto length = [&] { return logarithmic(random, 1, 6); };
+    medium.half_extent =
+        medium.shape == Medium::Shape::sphere ? glm::vec3(length()) : glm::vec3{length(), length(), length()};
+    if (medium.shape == Medium::Shape::box) medium.half_extent *= 0.5f;
+    medium.rotation =
+        glm::angleAxis(static_cast<float>(random.linear(0, 2 * std::numbers::pi)), random.direction());
+    medium.softness = random.chance(0.5) ? 0 : logarithmic(random, 0.3, 2);
+    if (random.chance(0.3)) {
+        medium.noise_scale = logarithmic(random, 2, 6);
+        medium.noise_amount = static_cast<float>(random.unit());
+        medium.noise_seed = random.below(1 << 24);  // shaders get it as a float, which rounds larger ones
+    }
+    medium.height_profile = random.chance(0.3);
+    medium.falloff = logarithmic(random, 3, 50);
+    medium.base = medium.center.y + static_cast<float>(random.linear(-3, 3));
+    return medium;
+}
+
+Medium draw_local(bool first, const StressFrame& frame, const Structure& structure, glm::vec3 origin,
+                  Random& random) {
+    return structure.comparable ? draw_comparable_local(first, frame, structure, origin, random)
+                                : draw_extreme_local(first, frame, structure, origin, random);
+}
+
 }  // namespace
 
 void draw_media(StressFrame& frame, const Structure& structure, glm::vec3 origin, Random& random) {
-    const int local = structure.local ? 1 + random.below(random.chance(0.05) ? 40 : 4) : 0;
+    const int most = structure.comparable ? 2 : random.chance(0.05) ? 40 : 4;
+    const int local = structure.local ? 1 + random.below(most) : 0;
     for (int i = 0; i < local; ++i) frame.media.push_back(draw_local(i == 0, frame, structure, origin, random));
     if (structure.homogeneous) frame.media.push_back(draw_global(false, frame, structure, origin, random));
     for (int i = 0; i < structure.heights; ++i)

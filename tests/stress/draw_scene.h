@@ -5,8 +5,8 @@
 
 namespace tyndall::stress {
 
-/// small: each side up to 128.
-enum class SizeKind { small, one_pixel, column, row, wide, tall };
+/// small: each side up to 128; thumbnail: 9 to 33, of comparable frames.
+enum class SizeKind { small, thumbnail, one_pixel, column, row, wide, tall };
 
 /// What decides the shader permutations of a frame.
 struct Structure {

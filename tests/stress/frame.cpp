@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "draw_scene.h"
+#include "moderate.h"
 #include "settings_draw.h"
 
 namespace tyndall::stress {
@@ -11,7 +12,7 @@ namespace {
 
 // Programs are compiled once for each structure, so there are few of them; another run of them begins every
 // `epoch` frames.
-constexpr int structures = 16, epoch = 2000;
+constexpr int structures = 2 * moderate_turns, epoch = 2000;
 
 /// Segments of rays (pixels, steps, lamps) that a frame may cost: some 20 ms on two cores.
 constexpr double work_budget = 1.0e6;
@@ -19,30 +20,26 @@ constexpr double work_budget = 1.0e6;
 SizeKind draw_size_kind(Random& random) {
     const double u = random.unit();
     if (u < 0.7) return SizeKind::small;
-    return static_cast<SizeKind>(1 + random.below(5));
+    return static_cast<SizeKind>(2 + random.below(5));
 }
 
-Structure draw_structure(Random& random) {
+Structure draw_structure(int index, Random& random) {
     Structure s;
-    s.comparable = random.chance(0.3);
     s.size = draw_size_kind(random);
     s.world = random.pick({World::nothing, World::standing, World::moving, World::moving});
     s.sun = random.chance(0.55);
     s.lamps = random.chance(0.65);
     s.homogeneous = random.chance(0.45);
     s.heights = random.pick({0, 0, 1, 1, 3});
-    s.local = !s.comparable && random.chance(0.5);
+    s.local = random.chance(0.5);
     s.local_emission = random.chance(0.4);
     s.chromatic = random.chance(0.5);
     if (!s.homogeneous && s.heights == 0 && !s.local && random.chance(0.9)) s.homogeneous = true;
     draw_settings(render_settings_table(), &s.options.render, SettingEffect::permutation, random);
     draw_settings(volumetrics::settings_table(), &s.options.volumetrics, SettingEffect::permutation, random);
-    // The march is what this is about; a technique that the table gets later is drawn now and then.
-    if (random.chance(s.comparable ? 1 : 0.7)) s.options.volumetrics.technique = "ray_march";
-    if (s.comparable) {
-        s.options.render.shadows = false;
-        s.options.volumetrics.filter.kernel = volumetrics::Filter::none;
-    }
+    // The march is what extremes are about; a technique that the table gets later is drawn now and then.
+    if (random.chance(0.7)) s.options.volumetrics.technique = "ray_march";
+    if (index % 2 == 1) moderate_structure(s, index / 2, random);
     return s;
 }
 
@@ -64,6 +61,8 @@ glm::ivec2 draw_size(SizeKind kind, Random& random) {
             return {1 << (6 + random.below(7)), 16};
         case SizeKind::tall:
             return {16, 1 << (6 + random.below(7))};
+        case SizeKind::thumbnail:
+            return {odd(random.logarithmic(9, 33)), odd(random.logarithmic(9, 33))};
         case SizeKind::small:
             break;
     }
@@ -74,25 +73,14 @@ glm::ivec2 draw_size(SizeKind kind, Random& random) {
 /// Lowers steps, then the size, until the frame is cheap.
 void limit_work(StressFrame& frame) {
     volumetrics::Settings& v = frame.options.volumetrics;
-    if (v.technique == "reference") {
+    if (frame.options.volumetrics.technique == "reference") {
         frame.size = glm::min(frame.size, glm::ivec2(9));
         v.reference.steps = std::min(v.reference.steps, 512);
-        v.reference.light_steps = std::min(v.reference.light_steps, 4);
+        if (!frame.comparable) v.reference.light_steps = std::min(v.reference.light_steps, 4);
     }
     const double pixels = static_cast<double>(frame.size.x) * frame.size.y;
     const double weight = (1 + 2.0 * static_cast<double>(frame.lights.size())) * pixels;
     v.march.steps = std::clamp(v.march.steps, 1, std::max(1, static_cast<int>(work_budget / weight)));
-}
-
-/// What the closed forms and the ground truth agree about: see compare.h.
-void moderate(StressOptions& options, Random& random) {
-    options.volumetrics.march.steps = static_cast<int>(random.logarithmic(12, 128));
-    options.volumetrics.march.max_distance = static_cast<float>(random.logarithmic(120, 2000));
-    options.volumetrics.march.stepping_strength = std::min(options.volumetrics.march.stepping_strength, 4.0f);
-    options.volumetrics.light.lamp_integration = volumetrics::LampIntegration::segment;
-    options.volumetrics.resolution.size = volumetrics::Resolution::full;
-    options.volumetrics.temporal.mode = volumetrics::Temporal::off;
-    options.render.cluster_far = std::max(options.render.cluster_far, 100.0f);
 }
 
 }  // namespace
@@ -100,15 +88,17 @@ void moderate(StressOptions& options, Random& random) {
 StressFrame make_frame(std::uint64_t seed, int number) {
     const auto k = static_cast<std::uint64_t>(number);
     const std::uint64_t sequence = k / sequence_length;
+    const int index = static_cast<int>(sequence % structures);
     Random of_structure{seed, 1, k / epoch, sequence % structures};
     Random of_sequence{seed, 2, sequence};
     Random random{seed, 3, k};
 
-    const Structure structure = draw_structure(of_structure);
+    const int visit = static_cast<int>(sequence / structures);
+    Structure structure = draw_structure(index, of_structure);
+    if (structure.comparable) moderate_visit(structure, visit);
     StressFrame frame;
     frame.world = structure.world;
-    // The ground truth of a sky takes long to set up: once a sequence.
-    frame.comparable = structure.comparable && (!structure.sun || number % sequence_length == 0);
+    frame.comparable = structure.comparable;
     frame.options = structure.options;
     frame.size = draw_size(structure.size, of_sequence);
     for (const SettingEffect effect : {SettingEffect::resource, SettingEffect::uniform}) {
@@ -116,11 +106,11 @@ StressFrame make_frame(std::uint64_t seed, int number) {
         draw_settings(render_settings_table(), &frame.options.render, effect, from);
         draw_settings(volumetrics::settings_table(), &frame.options.volumetrics, effect, from);
     }
-    frame.options.render.ambient =
-        structure.comparable && of_sequence.chance(0.5) ? 0 : frame.options.render.ambient;
+    // The ground truth of a sky takes long to set up: once a sequence.
+    if (structure.comparable && number % sequence_length != 0) frame.options.render.ambient = 0;
     limit_resources(frame.options);
     draw_world(frame, structure, of_sequence, random);
-    if (structure.comparable) moderate(frame.options, random);
+    if (structure.comparable) moderate_frame(frame, visit, of_sequence, random);
     limit_work(frame);
 
     frame.options.layer = "scattering";

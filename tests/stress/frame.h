@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "engine/render/renderer.h"
@@ -9,6 +10,9 @@ namespace tyndall::stress {
 
 /// Frames come in sequences that share size, resources and kind of scene, with a camera that moves or jumps.
 constexpr int sequence_length = 4;
+
+/// What stands between the samples of a comparable frame and its picture; plain: nothing.
+enum class Feature { plain, filter, history, low_resolution };
 
 struct StressOptions : FrameOptions {
     volumetrics::Settings volumetrics;
@@ -29,7 +33,8 @@ struct StressFrame {
     glm::ivec2 size{1};
     StressOptions options;
     bool cut = false;         ///< a camera jump that the renderer is told of
-    bool comparable = false;  ///< within what the ground truth follows: see compare.h
+    bool comparable = false;  ///< within what a truth follows: see moderate.h
+    Feature feature = Feature::plain;
 };
 [[nodiscard]] StressFrame make_frame(std::uint64_t seed, int number);
 

@@ -53,11 +53,9 @@ int run(const Options& options, const std::string& program) {
         for (const std::string& finding : findings) fmt::print("frame {}: {}; {}\n", number, finding, again);
     }
     const Totals& t = run.totals;
-    fmt::print(
-        "{} frames, {} failed, in {:.1f} s; {} pixels of {} frames compared with the ground truth (largest "
-        "error {:.2f} of its bound), {} pixels with what lies behind them\n",
-        t.frames, t.failed, seconds_since(begin), t.truth.pixels, t.truth.frames, t.truth.worst, t.depth_pixels);
-    if (t.frames >= 200 && (t.depth_pixels == 0 || t.truth.pixels == 0)) {
+    fmt::print("{}{} frames, {} failed, in {:.1f} s; {} pixels compared with what lies behind them\n",
+               run.tally().table(), t.frames, t.failed, seconds_since(begin), t.depth_pixels);
+    if (t.frames >= 200 && (t.depth_pixels == 0 || run.tally().pixels() == 0)) {
         fmt::print("nothing was compared\n");
         return 1;
     }

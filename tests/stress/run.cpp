@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "engine/core/error.h"
+#include "engine/core/files.h"
 
 namespace tyndall::stress {
 namespace {
@@ -20,6 +21,8 @@ bool has_surface(const Image& depth) {
 }
 
 }  // namespace
+
+Run::Run(std::uint64_t seed) : seed_(seed), shaders_(data_root()), worlds_(shaders_), compare_(shaders_) {}
 
 Layers Run::render(const StressFrame& frame, World world) {
     auto& [scene, volumetrics, renderer] = worlds_[world];
@@ -44,11 +47,8 @@ Findings Run::check(int number) {
         // The technique reference keeps its layers in single precision.
         const bool single = frame.options.volumetrics.technique == "reference";
         check_values(layers, single ? std::numeric_limits<float>::max() : half_max, findings);
-        if (frame.comparable) {
-            Random random{seed_, 4, static_cast<std::uint64_t>(number)};
-            const Scene scene = pose_scene(worlds_[frame.world].scene, frame);
-            compare_with_truth(frame, scene, layers, random, totals.truth, findings);
-        }
+        if (frame.comparable) compare_.check(frame, Random{seed_, 4, static_cast<std::uint64_t>(number)}, findings);
+        if (number % sequence_length == 1) compare_.check_doubled(frame, findings);
         const volumetrics::Settings& v = frame.options.volumetrics;
         const bool of_own_ray = v.filter.kernel == volumetrics::Filter::none &&
                                 v.temporal.mode == volumetrics::Temporal::off &&

@@ -1,6 +1,5 @@
 #include "worlds.h"
 
-#include "engine/core/files.h"
 #include "support/test_scene.h"
 
 namespace tyndall::stress {
@@ -23,7 +22,7 @@ Scene furnished(bool dynamic) {
 
 }  // namespace
 
-Worlds::Worlds() : shaders_(data_root()) {
+Worlds::Worlds(ShaderLibrary& shaders) : shaders_(shaders) {
     places_[static_cast<std::size_t>(World::nothing)].scene.materials.emplace_back();
     places_[static_cast<std::size_t>(World::standing)].scene = furnished(false);
     places_[static_cast<std::size_t>(World::moving)].scene = furnished(true);
@@ -37,13 +36,6 @@ Worlds::Place& Worlds::operator[](World world) {
         place.renderer->prepare(place.scene, 1);
     }
     return place;
-}
-
-void Worlds::reset() {
-    for (Place& place : places_) {
-        place.renderer.reset();
-        place.volumetrics.reset();
-    }
 }
 
 }  // namespace tyndall::stress

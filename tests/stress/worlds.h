@@ -16,18 +16,16 @@ constexpr int world_count = 3;
 /// Scenes that are prepared once and drawn by many frames, each by a renderer of its own.
 class Worlds {
   public:
-    Worlds();
+    explicit Worlds(ShaderLibrary& shaders);
     struct Place {
         Scene scene;  ///< without lights, media and cameras
         std::unique_ptr<VolumetricsAdapter> volumetrics;
         std::unique_ptr<Renderer> renderer;
     };
     [[nodiscard]] Place& operator[](World world);
-    /// Forgets all that renderers keep between frames.
-    void reset();
 
   private:
-    ShaderLibrary shaders_;
+    ShaderLibrary& shaders_;
     std::array<Place, world_count> places_;
 };
 

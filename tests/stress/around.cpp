@@ -1,0 +1,105 @@
+#include "around.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "draw_scene.h"
+
+namespace tyndall::stress {
+namespace {
+
+int filter_radius(volumetrics::Filter filter) {
+    constexpr int radii[] = {0, 1, 2, 3, 1, 2, 7, 4};
+    return radii[static_cast<int>(filter)];
+}
+
+int radius_of(const StressFrame& frame) {
+    const volumetrics::Settings& v = frame.options.volumetrics;
+    switch (frame.feature) {
+        case Feature::plain:
+            break;
+        case Feature::filter:
+            return filter_radius(v.filter.kernel);
+        case Feature::history:  // temporal_clip: 3 x 3 pixels
+            return 1;
+        case Feature::low_resolution:
+            return v.resolution.size == volumetrics::Resolution::half ? 4 : 8;
+    }
+    return 0;
+}
+
+Image mean_of(const std::vector<Layers>& frames, Image Layers::*layer) {
+    Image mean = frames.front().*layer;
+    for (std::size_t i = 1; i < frames.size(); ++i)
+        for (std::size_t k = 0; k < mean.pixels.size(); ++k) mean.pixels[k] += (frames[i].*layer).pixels[k];
+    for (float& v : mean.pixels) v /= static_cast<float>(frames.size());
+    return mean;
+}
+
+}  // namespace
+
+bool counts_all_frames(const StressFrame& frame) {
+    const volumetrics::Settings& v = frame.options.volumetrics;
+    return frame.feature == Feature::history && frame.options.volumetrics.technique != "froxel" &&
+           v.temporal.mode == volumetrics::Temporal::accumulate && v.temporal.frames >= history_frames &&
+           !v.temporal.clip && !v.temporal.reject;
+}
+
+Around around(const StressFrame& frame, const std::vector<Layers>& plain, Image Layers::*layer) {
+    if (counts_all_frames(frame)) {
+        // A history rounds each of its means by up to 1e-3, up as often as down.
+        const Image mean = mean_of(plain, layer);
+        return {.relative = 3e-3, .floor = 1e-5, .least = mean, .most = mean};
+    }
+    const Image& first = plain.front().*layer;
+    // A low pixel looks through the middle of its block; of local media each ray has noise of its own.
+    // Transmittance changes by more of itself, the less there is of it.
+    const double floor = layer == &Layers::transmittance ? 1e-3 : 1e-5;
+    const double block = std::ranges::any_of(frame.media, is_bounded) ? 0.1 : 0.02;
+    Around range{.radius = radius_of(frame),
+                 .relative = frame.feature == Feature::low_resolution ? block : 2e-3,
+                 .floor = floor,
+                 .blocks = frame.feature == Feature::low_resolution,
+                 .least = first,
+                 .most = first};
+    for (const Layers& layers : plain)
+        for (std::size_t k = 0; k < first.pixels.size(); ++k) {
+            range.least.pixels[k] = std::min(range.least.pixels[k], (layers.*layer).pixels[k]);
+            range.most.pixels[k] = std::max(range.most.pixels[k], (layers.*layer).pixels[k]);
+        }
+    return range;
+}
+
+double compare_around(const Around& range, const Image& value, std::string& where) {
+    double worst = 0;
+    for (int y = 0; y < value.size.y; ++y)
+        for (int x = 0; x < value.size.x; ++x)
+            for (int c = 0; c < 3; ++c) {
+                float least = range.least.at(x, y)[c], most = range.most.at(x, y)[c];
+                for (int j = std::max(y - range.radius, 0); j <= std::min(y + range.radius, value.size.y - 1); ++j)
+                    for (int i = std::max(x - range.radius, 0); i <= std::min(x + range.radius, value.size.x - 1);
+                         ++i) {
+                        least = std::min(least, range.least.at(i, j)[c]);
+                        most = std::max(most, range.most.at(i, j)[c]);
+                    }
+                const int to_border = std::min({x, y, value.size.x - 1 - x, value.size.y - 1 - y});
+                if (range.blocks && to_border < range.radius) {  // a block's middle may lie outside
+                    const float beyond = 0.5f * (most - least);
+                    least -= beyond;
+                    most += beyond;
+                }
+                const double v = value.at(x, y)[c],
+                             slack = range.relative * static_cast<double>(most) + range.floor;
+                const double excess = std::max(v - most, least - v) / slack;
+                if (excess <= worst) continue;
+                worst = std::isnan(excess) ? std::numeric_limits<double>::infinity() : excess;
+                where = fmt::format("pixel ({}, {}) channel {} is {}, the plain ones around {} to {}", x, y, c, v,
+                                    least, most);
+            }
+    return worst;
+}
+
+}  // namespace tyndall::stress

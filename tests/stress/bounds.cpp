@@ -1,0 +1,322 @@
+#include "bounds.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "around.h"
+#include "draw_scene.h"
+#include "moderate.h"
+
+namespace tyndall::stress {
+namespace {
+
+// What is not compared. Limits are what the module's README says that a technique cannot do; a fault is to be
+// mended, and its rule to be deleted then.
+constexpr const char* fault_slices =
+    "fault: ray_march and froxel sample local media at the centres of froxels, so that depth is quantised to "
+    "slices";
+constexpr const char* fault_lamps_in_local =
+    "fault: lamps of ray_march see the mean medium of a segment, and a local one has an edge there";
+constexpr const char* fault_heights =
+    "fault: analytic_fog and radial_shafts cut a ray by its densest height medium alone; several are off";
+constexpr const char* fault_uncovered =
+    "fault: a pixel that no particle of global media covers gets none of their light, however much the closed form "
+    "knows there to be";
+constexpr const char* fault_low_froxels =
+    "fault: froxel at a lower resolution looks behind the farthest depth of the columns beside it, where none are "
+    "lit";
+constexpr const char* limit_nodes =
+    "limit: a lamp's four nodes span more than half a mean free path or 3 m of a cone, or the lamp is on the ray";
+constexpr const char* limit_mixture =
+    "limit: a mixture whose density changes more than e-fold over a segment, or goes on behind the march";
+constexpr const char* limit_columns = "limit: froxel interpolates the glow of a lamp nearer than two columns";
+constexpr const char* limit_sprites = "limit: sheets and particles have lamps and local media of one point each";
+constexpr const char* limit_particles = "limit: a particle has the phase function and the sun of its centre";
+constexpr const char* limit_fog = "limit: the fog of fixed functions takes the media as they are at the eye";
+constexpr const char* limit_screen = "limit: radial_shafts sees shadows only of what is on screen";
+
+double largest(const dvec3& v) {
+    return std::max({v.x, v.y, v.z});
+}
+
+bool has_lamp(const Truth& truth) {
+    return std::ranges::any_of(truth.scene().lights, [](const Light& light) {
+        return light.type != LightType::sun && light.intensity != glm::vec3(0);
+    });
+}
+
+bool has_mixture(const Truth& truth) {
+    return std::ranges::count_if(truth.scene().media, [](const Medium& m) { return !is_bounded(m); }) > 1;
+}
+
+bool is_anisotropic(const Truth& truth) {
+    return std::ranges::any_of(truth.scene().media,
+                               [](const Medium& m) { return m.anisotropy != 0 || m.rayleigh; });
+}
+
+long heights(const Truth& truth) {
+    return std::ranges::count_if(truth.scene().media,
+                                 [](const Medium& m) { return m.shape == Medium::Shape::height; });
+}
+
+/// Length of a march's segment at a distance along `length` metres, m.
+double segment_at(const volumetrics::Settings& settings, double length, double distance) {
+    const double n = settings.march.steps;
+    if (settings.march.stepping == volumetrics::Stepping::uniform || n == 1) return length / n;
+    // Segment i begins at length (exp(s i / n) - 1) / growth.
+    const double s = settings.march.stepping_strength, growth = std::expm1(s);
+    return std::min((std::clamp(distance, 0.0, length) + length / growth) * std::expm1(s / n), length);
+}
+
+/// Thickness of a froxel slice at a view depth, m.
+double slice_at(const volumetrics::Settings& settings, double depth) {
+    const double n = settings.froxels.z, far = settings.froxels.far;
+    using enum volumetrics::DepthDistribution;
+    const double first = far / 256;
+    if (settings.froxels.distribution == exponential)
+        return depth < 1.1 * first ? 1.1 * first : depth * std::log(256.0) / n;
+    if (settings.froxels.distribution == logarithmic) return (depth + far / 32) * std::log(33.0) / n;
+    return far / n;
+}
+
+double marched(const StressFrame& frame, const Truth::Pixel& pixel) {
+    return std::min<double>(pixel.open.distance, frame.options.volumetrics.march.max_distance);
+}
+
+/// The part of a ray within which a technique takes a lamp's medium, cone and range from four nodes, m.
+double node_span(const StressFrame& frame, const Truth::Pixel& pixel, double distance) {
+    const volumetrics::Settings& v = frame.options.volumetrics;
+    const double length = marched(frame, pixel);
+    const std::string technique = frame.options.volumetrics.technique;
+    if (technique == "froxel") return slice_at(v, distance * pixel.ray.view_cosine);
+    if (technique == "shaft_geometry") return length / v.shaft_geometry.lamp_parts;
+    return segment_at(v, length, distance);
+}
+
+/// Where on a marched ray less than 1% is left of the light in its clearest channel.
+double visible_end(const StressFrame& frame, const Truth& truth, const Truth::Pixel& pixel) {
+    constexpr double opaque = 4.6;
+    const auto clearest = [&](double t) {
+        const dvec3 depth = truth.media().optical_depth(pixel.ray.origin, pixel.ray.direction, 0, t, true, 1e-3);
+        return std::min({depth.x, depth.y, depth.z});
+    };
+    double begin = 0, end = marched(frame, pixel);
+    if (clearest(end) < opaque) return end;
+    for (int i = 0; i < 12; ++i) (clearest(0.5 * (begin + end)) < opaque ? begin : end) = 0.5 * (begin + end);
+    return end;
+}
+
+/// Over the longest segment of the part of a ray that is seen, how often the density of a height medium grows
+/// e-fold.
+double folds(const StressFrame& frame, const Truth& truth, const Truth::Pixel& pixel, double end) {
+    double most = 0;
+    for (const Medium& medium : truth.scene().media)
+        if (medium.shape == Medium::Shape::height)
+            most = std::max(most, std::abs(pixel.ray.direction.y) / medium.falloff);
+    return most * segment_at(frame.options.volumetrics, marched(frame, pixel), end);
+}
+
+double local_depth(const Truth& truth, const PixelRay& ray, double distance) {
+    return largest(truth.local_media().optical_depth(ray.origin, ray.direction, 0, distance, true, 1e-4));
+}
+
+/// Of the optical depth of local media that are sampled once a slice of the froxels, and once a segment of the
+/// march where that takes light whole: half a slice at each end, and linear interpolation between columns.
+double quantisation(const StressFrame& frame, const Truth& truth, const Truth::Pixel& pixel) {
+    const volumetrics::Settings& v = frame.options.volumetrics;
+    const double end = pixel.open.distance;
+    double error = 0;
+    for (const reference::MediumShape& shape : truth.local_media().shapes()) {
+        const auto path = shape.path(pixel.ray.origin, pixel.ray.direction);
+        if (!path || path->inside.end <= 0 || path->inside.begin >= end) continue;
+        for (const double t : {path->inside.begin, path->inside.end}) {
+            const double at = std::clamp(t, 0.0, end);
+            double width = slice_at(v, at * pixel.ray.view_cosine);
+            if (frame.options.volumetrics.technique == "ray_march" && !filters_shares(frame))
+                width += segment_at(v, marched(frame, pixel), at);
+            error += 0.5 * width * largest(shape.sigma_t) * shape.greatest_density();
+        }
+    }
+    const double middle = local_depth(truth, pixel.ray, end);
+    const glm::dvec2 column = glm::dvec2(frame.size) / glm::dvec2(v.froxels.x, v.froxels.y);
+    for (const glm::dvec2 step : {glm::dvec2(column.x, 0), glm::dvec2(0, column.y)}) {
+        double around = 0;
+        for (const double side : {-1.0, 1.0})
+            around += local_depth(truth, pixel_ray(frame.view, frame.size, pixel.place + side * step), end);
+        error += 0.5 * std::abs(around - 2 * middle);
+    }
+    return error;
+}
+
+/// What four nodes leave of the light of lamps (shaders/lib/lamp_segment.glsl): up to 0.5% of an optical depth of
+/// 0.5, and 4.6% of phase functions of |g| = 0.6 where a segment is as long as its distance from the lamp or
+/// longer; 3% of the rim of a spot's cone. None: segments of a larger depth, cones in long ones, or a lamp on the
+/// ray.
+std::optional<double> node_error(const StressFrame& frame, const Truth& truth, const Truth::Pixel& pixel) {
+    constexpr double nearest_measured = 0.02, longest_in_cone = 3;  // m
+    double error = 0;
+    for (const Light& light : truth.scene().lights) {
+        if (light.type == LightType::sun || light.intensity == glm::vec3(0)) continue;
+        const dvec3 place(truth.scene().nodes[static_cast<std::size_t>(light.node)].world[3]);
+        const double nearest =
+            std::clamp(glm::dot(place - pixel.ray.origin, pixel.ray.direction), 0.0, marched(frame, pixel));
+        const dvec3 point = pixel.ray.origin + nearest * pixel.ray.direction;
+        const double aside = glm::distance(point, place);
+        if (aside > light.range) continue;
+        const double span = std::min(node_span(frame, pixel, nearest), 2.0 * light.range);
+        const bool spot = light.type == LightType::spot;
+        if (span * largest(truth.media().at(point).sigma_t) > 0.5 || (spot && span > longest_in_cone) ||
+            aside < nearest_measured)
+            return {};
+        error = std::max(error, 0.005 + 0.046 * span / (span + aside) + (spot ? 0.03 : 0));
+    }
+    return error;
+}
+
+bool passes_near_lamp(const StressFrame& frame, const Truth& truth, const Truth::Pixel& pixel) {
+    const volumetrics::Settings& v = frame.options.volumetrics;
+    for (const Light& light : truth.scene().lights) {
+        if (light.type == LightType::sun || light.intensity == glm::vec3(0)) continue;
+        const dvec3 place(truth.scene().nodes[static_cast<std::size_t>(light.node)].world[3]);
+        const double nearest = std::max(glm::dot(place - pixel.ray.origin, pixel.ray.direction), 0.0);
+        const double width = 2 * nearest / frame.view.projection[1][1] / std::min(v.froxels.x, v.froxels.y);
+        if (glm::distance(pixel.ray.origin + nearest * pixel.ray.direction, place) < 4 * width) return true;
+    }
+    return false;
+}
+
+/// A lamp in the picture, or as near to it as a block of the low resolution is wide.
+bool shows_lamp(const StressFrame& frame) {
+    constexpr float block = 8;  // px
+    return std::ranges::any_of(frame.lights, [&](const StressFrame::Lamp& lamp) {
+        const glm::vec4 clip = frame.view.projection * frame.view.view * lamp.pose[3];
+        const glm::vec2 most = (1.0f + block / glm::vec2(frame.size)) * clip.w;
+        return lamp.light.type != LightType::sun && lamp.light.intensity != glm::vec3(0) && clip.w > 0 &&
+               std::abs(clip.x) < most.x && std::abs(clip.y) < most.y;
+    });
+}
+
+Bound left_out(const char* rule) {
+    return {.rule = rule};
+}
+
+}  // namespace
+
+Bound transmittance_bound(const StressFrame& frame, const Truth& truth, const Truth::Pixel& pixel) {
+    constexpr double half = 1e-3;  // rounding, and Beer-Lambert as the module's README states it
+    const double local = local_depth(truth, pixel.ray, pixel.open.distance);
+    if (local == 0) return {half, half};
+    const std::string technique = frame.options.volumetrics.technique;
+    if (technique == "ray_march" || technique == "froxel") {
+        const double quantised = quantisation(frame, truth, pixel);
+        if (quantised > 0.02) return left_out(fault_slices);
+        return {half + quantised, half};
+    }
+    if (technique == "billboards") return {half + 0.25 * local, half};  // measured: 0.095
+    if (technique == "particles")
+        return left_out("limit: particles have the transmittance of local media in the mean of a picture");
+    return {2 * half, half};
+}
+
+Bound scattering_bound(const StressFrame& frame, const Truth& truth, const Truth::Pixel& pixel) {
+    const volumetrics::Settings& v = frame.options.volumetrics;
+    const std::string technique = frame.options.volumetrics.technique;
+    const bool lamps = has_lamp(truth), mixture = has_mixture(truth);
+    const double local = local_depth(truth, pixel.ray, pixel.open.distance);
+    Bound bound{4e-3, 2e-3};
+    if (frame.options.render.ambient > 0) bound.relative += 0.02;
+    const bool march = technique == "ray_march", froxel = technique == "froxel";
+    if (march || froxel || technique == "shaft_geometry") {
+        const double end = visible_end(frame, truth, pixel), varies = folds(frame, truth, pixel, end);
+        const bool tail = end == marched(frame, pixel) && pixel.open.distance > v.march.max_distance;
+        if (varies > 0 && (mixture || lamps) && (varies > 1 || (mixture && tail))) return left_out(limit_mixture);
+        if (varies > 0 && end < marched(frame, pixel)) bound.relative += 0.01;
+        if (mixture) bound.relative += 0.1 * varies;
+        const std::optional<double> nodes = node_error(frame, truth, pixel);
+        if (!nodes) return left_out(limit_nodes);
+        bound.relative += *nodes;
+        if (froxel && lamps && passes_near_lamp(frame, truth, pixel)) return left_out(limit_columns);
+        if (froxel) bound.relative += 0.01;
+    } else if (technique == "particles") {
+        if (lamps || local > 0) return left_out(limit_sprites);
+        if (v.light.phase != volumetrics::PhaseFunction::henyey_greenstein || !truth.is_homogeneous() ||
+            is_anisotropic(truth))
+            return left_out(limit_particles);
+        if (v.particles.size < least_particle_size) return left_out(fault_uncovered);
+    } else if (technique == "billboards") {
+        if (lamps || local > 0) return left_out(limit_sprites);
+        bound.relative += 0.3;  // measured: 0.18, of eight sheets or more
+    } else if (technique == "analytic_fog" || technique == "radial_shafts") {
+        const bool screen = technique == "radial_shafts";
+        if (screen && (frame.world != World::nothing || v.radial_shafts.unseen < 1)) return left_out(limit_screen);
+        if (!screen && v.analytic_fog.mode != volumetrics::FogMode::height && !truth.is_homogeneous())
+            return left_out(limit_fog);
+        if (heights(truth) > 1) return left_out(fault_heights);
+        if (mixture) bound.relative += 0.07;
+    }
+    if (!truth.local_media().empty() && (march || froxel)) {
+        const double quantised = quantisation(frame, truth, pixel);
+        if (quantised > std::min(0.02, 0.25 * local)) return left_out(fault_slices);
+        if (local > 0 && lamps && march) return left_out(fault_lamps_in_local);
+        if (local > 0) bound.relative += quantised + 0.02;
+    }
+    if (!truth.local_media().empty() && v.light.transmittance && technique != "reference")
+        bound.relative += 0.06;  // light volumes
+    return bound;
+}
+
+// Measured where the few pixels lie along a shadow's edge: up to 0.023, with local media 0.154, of the columns of
+// froxels 0.117.
+double shadow_bound(const StressFrame& frame) {
+    const bool coarse =
+        std::ranges::any_of(frame.media, is_bounded) || frame.options.volumetrics.technique == "froxel";
+    return coarse ? 0.2 : 0.05;
+}
+
+std::string light_differs_from_plain(const StressFrame& frame) {
+    const std::string& technique = frame.options.volumetrics.technique;
+    // Froxels and particles hold the light of lamps in cells that are wider.
+    if (frame.feature != Feature::low_resolution || technique == "froxel" || technique == "particles" ||
+        !shows_lamp(frame))
+        return "";
+    return "limit: the glow of a lamp in the picture changes within a block of the low resolution";
+}
+
+std::string differs_from_plain(const StressFrame& frame, bool shadows) {
+    const volumetrics::Settings& v = frame.options.volumetrics;
+    const bool history = frame.feature == Feature::history;
+    if (frame.options.volumetrics.technique == "radial_shafts" &&
+        (frame.world != World::nothing || v.radial_shafts.unseen < 1))
+        return limit_screen;
+    if (frame.options.volumetrics.technique == "froxel" && frame.feature == Feature::low_resolution &&
+        v.resolution.depth != volumetrics::DepthChoice::min && frame.world != World::nothing)
+        return fault_low_froxels;
+    if (frame.options.volumetrics.technique == "particles" && history)
+        return "limit: without a history particles stand still, so that it is no mean of plain frames";
+    if (frame.options.volumetrics.technique == "froxel" && history && shadows)
+        return "limit: the history of froxels samples visibility beside the ray, too";
+    if (!filters_shares(frame)) return "";
+    if (frame.options.volumetrics.technique == "ray_march" && std::ranges::any_of(frame.media, is_bounded))
+        return "limit: apart from visibility, local media are sampled without noise";
+    if (shadows && !counts_all_frames(frame))
+        return "limit: a share of a pixel's own light is no mean of the light around";
+    return "";
+}
+
+bool filters_shares(const StressFrame& frame) {
+    const volumetrics::Settings& v = frame.options.volumetrics;
+    if (frame.feature != Feature::filter && frame.feature != Feature::history) return false;
+    if (frame.feature == Feature::history && v.temporal.place == volumetrics::TemporalPlace::after) return false;
+    if (frame.options.volumetrics.technique == "radial_shafts") return true;
+    if (v.filter.reconstruct == volumetrics::Reconstruct::light) return false;
+    const bool local = std::ranges::any_of(frame.media, is_bounded);
+    const bool coloured = std::ranges::any_of(frame.media, [](const Medium& medium) {
+        const glm::vec3 t = medium.sigma_s + medium.sigma_a;
+        return medium.rayleigh || t != glm::vec3(t.x);
+    });
+    return frame.options.volumetrics.technique == "shaft_geometry" ||
+           (frame.options.volumetrics.technique == "ray_march" && !(local && coloured));
+}
+
+}  // namespace tyndall::stress
