@@ -42,6 +42,7 @@ layout(std430, binding = BINDING_LAMP_VOLUMES) readonly buffer LampVolumeBuffer 
 // before it the texels hold 0, behind it the last ones the whole sum.
 vec3 local_sun_optical_depth(vec3 point) {
 #if LIGHT_VOLUMES
+    if (volumetrics.light_transmittance == 0u) return vec3(0.0);
     count_work(WORK_TEXTURE_FETCHES, 1u);
     return textureLod(sun_volume, (volumetrics.world_to_sun_volume * vec4(point, 1.0)).xyz, 0.0).rgb;
 #else

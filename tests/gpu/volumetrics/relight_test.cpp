@@ -333,7 +333,7 @@ TEST_F(VolumetricsRelight, FrameSaysWhyLightIsFilteredWhole) {
     Settings settings = filtered(Reconstruct::visibility);
     EXPECT_FALSE(host.render(settings).skipped.contains("volumetrics/relight"));
     settings.filter.kernel = Filter::none;
-    EXPECT_EQ(reason(settings), "nothing reconstructs visibility");
+    EXPECT_EQ(reason(settings), "nothing filters visibility");
     settings = filtered(Reconstruct::visibility);
     settings.light.lamp_integration = volumetrics::LampIntegration::center;
     EXPECT_EQ(reason(settings), "lamp_integration is center: unshadowed light is noisy, too");

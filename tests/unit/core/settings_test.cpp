@@ -176,5 +176,41 @@ TEST_F(SettingsDeathTest, DefaultOutsideItsRangeIsAFailedCheck) {
     EXPECT_DEATH(set_.add(bad, &fog_), "check failed.*other");
 }
 
+struct Grouped {
+    struct Inner {
+        float width = 2;
+        int count = 3;
+    };
+    Inner inner = {};
+    std::string name = "first";
+};
+
+const std::vector<std::string>& grouped_names() {
+    static const std::vector<std::string> names{"first", "second"};
+    return names;
+}
+
+TEST(SettingsTable, RowsOfAGroupAndOfANameReadAndWriteTheirMember) {
+    const SettingsTable table =
+        SettingsTable("Grouped")
+            .real(in(&Grouped::inner, &Grouped::Inner::width), {"width", "", ""}, 0, 10)
+            .integer(in(&Grouped::inner, &Grouped::Inner::count), {"count", "", ""}, 0, 9, SettingEffect::uniform)
+            .name(&Grouped::name, {"name", "", ""}, grouped_names, SettingEffect::uniform);
+    Grouped grouped;
+    SettingsSet set;
+    set.add(table, &grouped);
+    EXPECT_EQ(set.get("width"), "2");
+    EXPECT_EQ(table.settings()[1].default_value, 3);
+    set.set("width=4.5");
+    set.set("count=7");
+    set.set("name=second");
+    EXPECT_EQ(grouped.inner.width, 4.5F);
+    EXPECT_EQ(grouped.inner.count, 7);
+    EXPECT_EQ(grouped.name, "second");
+    EXPECT_THROW(set.set("name=third"), UsageError);
+    grouped.name = "third";
+    EXPECT_THROW((void)set.get("name"), Error);
+}
+
 }  // namespace
 }  // namespace tyndall

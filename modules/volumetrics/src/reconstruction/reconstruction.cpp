@@ -54,7 +54,7 @@ const std::vector<std::string>& reconstruction_passes() {
 const char* reason_for_no_parts(const Settings& settings) {
     if (settings.filter.reconstruct == Reconstruct::light) return "reconstruct is light";
     const bool none = settings.filter.kernel == Filter::none && settings.temporal.mode == Temporal::off;
-    return none && settings.resolution.size == Resolution::full ? "nothing reconstructs visibility" : nullptr;
+    return none ? "nothing filters visibility" : nullptr;
 }
 
 bool averages_frames(const Settings& settings) {
