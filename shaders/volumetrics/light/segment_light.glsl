@@ -5,7 +5,7 @@
 #include "shaders/interface/shadows.glsl"
 #include "shaders/volumetrics/light/lamps.glsl"
 
-// 1: unshadowed light is wanted without noise (march.frag).
+// 1: unshadowed light is wanted without noise (ray_march.frag).
 #ifndef PARTS
 #define PARTS 0
 #endif

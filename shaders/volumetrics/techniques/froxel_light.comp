@@ -1,6 +1,6 @@
 // Light of each slice of the froxels that reaches the eye through the global media: along the column's ray
 //     T_global(0,a) int_a^b T(a,t) (sigma_s sum_i p V_i T_i E_i + e) dt,
-// as in march.frag with one segment a slice. The medium of the local media is what inject_media.comp has found.
+// as in ray_march.frag with one segment a slice. The medium of the local media is what inject_media.comp has found.
 //
 // Behind the farthest surface of a column nothing is lit. The slice that holds this surface is lit up to it, so that
 // nothing behind a wall leaks in, and then scaled as if the rest of the slice were lit alike: see gathered_share.
