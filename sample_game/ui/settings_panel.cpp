@@ -7,6 +7,7 @@
 
 #include "sample_game/ui/curve_editor.h"
 #include "sample_game/ui/settings_sections.h"
+#include "volumetrics/technique.h"
 
 namespace tyndall {
 namespace {
@@ -91,6 +92,9 @@ void tooltip(const Setting& s) {
     ImGui::BeginTooltip();
     ImGui::PushTextWrapPos(std::min(ImGui::GetFontSize() * 26, ImGui::GetIO().DisplaySize.x * 0.8f));
     ImGui::TextUnformatted(s.help.c_str());
+    if (s.key == "technique")
+        for (const std::string& name : s.choices)
+            ImGui::BulletText("%s: %s", name.c_str(), volumetrics::technique(name).help.c_str());
     ImGui::TextDisabled("%s, default %s; %s. Right click: default.", s.key.c_str(),
                         value_text(s, s.default_value).c_str(), effect_text(s.effect));
     ImGui::PopTextWrapPos();

@@ -35,6 +35,7 @@ TEST(SettingsSections, ATechniqueShowsItsOwnAndNotThoseOfOthers) {
             return s.own == technique && matters(s, technique);
         });
         EXPECT_EQ(own, technique == "off" ? 0 : 1) << technique;
+        EXPECT_NE(volumetrics::technique(technique).help, "") << technique;
     }
     EXPECT_TRUE(matters(*section_of("noise_size"), "ray_march"));
     EXPECT_FALSE(matters(*section_of("noise_size"), "froxel"));

@@ -1,5 +1,7 @@
 #include "volumetrics/frame.h"
 
+#include <optional>
+
 #include "engine/gl/vertex_array.h"
 #include "frame/bound_sources.h"
 #include "frame/resources.h"
