@@ -14,6 +14,7 @@
 #define BINDING_PARTICLES 0           // transparent particles
 #define BINDING_SPRITES 0             // volumetrics: billboards, particles
 #define BINDING_MEDIA_TILES 0         // volumetrics: inject_media
+#define BINDING_SCREEN_MEDIA 0        // volumetrics: ray_media.glsl
 #define BINDING_UNFINISHED 0          // volumetrics: reference_lamps
 #define BINDING_LIGHTS 1
 #define BINDING_CLUSTERS 2
@@ -23,7 +24,7 @@
 #define BINDING_VISIBLE_LIGHTS 5      // light culling, clusters
 #define BINDING_PREVIOUS_INSTANCES 5  // geometry: G-buffer with motion
 #define BINDING_VISIBLE_INSTANCES 6   // geometry
-#define BINDING_LOCAL_MEDIA 6         // volumetrics: inject_media, light volumes, billboards, particles, reference
+#define BINDING_LOCAL_MEDIA 6         // volumetrics: local_media.glsl
 #define BINDING_WORK 7                // every pass that counts its work
 
 // Texture units. 0 to 7 are a pass's own: a geometry pass's material is 0 to 4, the sky it mirrors 5. A pass that

@@ -17,7 +17,7 @@ struct Billboard {
 struct ParticleSprite {
     vec4 center_radius;  // xyz from the eye, along the axes of the world, w radius (m); 0: not drawn
     vec4 light;          // rgb what it sends to the eye, radiance m^2; a what the sum of it is known for, see particles_resolve.frag
-    vec4 extinction;     // rgb optical cross-section (m^2); w 1: of a local medium, 0: of the global ones
+    vec4 local;          // x 1: of a local medium, 0: of the global ones
 };
 
 SHARED_END

@@ -9,6 +9,10 @@
 #define SHAPE_ELLIPSOID 0
 #define SHAPE_BOX 1
 
+// Tiles of the screen, each with a list of the local media that may be seen in it (ray_media.glsl).
+#define SCREEN_MEDIA_X 32
+#define SCREEN_MEDIA_Y 18
+
 // Settings noise and noise_time, in their order.
 #define NOISE_NONE 0
 #define NOISE_BAYER 1
@@ -46,7 +50,8 @@ struct LocalMedium {
     vec4 sigma_s_g;        // rgb 1/m at density 1, w anisotropy
     vec4 sigma_a_shape;    // rgb 1/m at density 1, w SHAPE_*
     vec4 emission_noise;   // rgb radiance per metre at density 1, w noise amount 0..1
-    vec4 noise_height;     // x noise scale (m), y seed, z base (m), w falloff (m); falloff 0 = no height profile
+    vec4 noise_height;     // x noise scale (m), z base (m), w falloff (m); falloff 0 = no height profile
+    uvec4 noise_seed;      // x
 };
 
 struct VolumetricsData {
@@ -79,9 +84,12 @@ struct VolumetricsData {
     float radial_samples;       // to the light
     float radial_decay;         // weight at the light
     float radial_unseen;        // visibility of an unseen sun
-    float unused;
+    uint local_noise;           // 1: some local medium has noise
     vec4 froxel_depths;         // x nearest, y farthest view depth (m) of the froxel volume
-    vec4 medium_depths;         // x nearest, y farthest view depth (m) at which the march finds a medium
+    uint has_global;            // 1: some medium fills space
+    uint unused_1;
+    uint unused_2;
+    uint unused_3;
     mat4 froxel_begins;         // FROXEL_TABLE: view depth (m) where each of 16 equal shares of the slices begins
     mat4 froxel_lengths;        // and their lengths (m); entry i is [i / 4][i % 4]
     mat4 world_to_sun_volume;   // world to texture xyz of the sun volume, see light_transmittance.glsl

@@ -98,16 +98,22 @@ Ends interpolate(vec2 uv, int slice, float view_depth, float growth, bool opaque
                 ends.local_end * scale);
 }
 
-// surface: view depth [m] of what is there; endless: of nothing, so that the media go on. ambient: its mean radiance.
-March froxel_march(vec2 uv, float surface, bool opaque, bool endless, vec3 ambient) {
-    Ray ray = view_ray(uv);
+// What the froxels hold of a ray, up to the distance `end`: the view depth asked for, or the end of the volume.
+struct FroxelPart {
+    float end;
+    vec3 radiance;
+    Extinction global_depth;  // optical depths
+    Extinction local_depth;
+};
+
+FroxelPart froxel_part(Ray ray, float surface, bool opaque) {
     float view_depth = min(surface, froxel_far());
     ivec3 size = textureSize(froxel_radiance, 0);
     int slice = froxel_slice(view_depth, size.z);
     float slice_begin = froxel_slice_begin(slice, size.z);
     float slice_end = froxel_slice_begin(slice + 1, size.z);
     float growth = (slice_end - slice_begin) / max(slice_begin - froxel_slice_begin(slice - 1, size.z), 1.0e-6);
-    Ends ends = interpolate(uv, slice, view_depth, growth, opaque, size.xy);
+    Ends ends = interpolate(ray.uv, slice, view_depth, growth, opaque, size.xy);
 
     float begin = ray_distance_from_view_depth(slice_begin, ray.forward_cosine);
     float end = ray_distance_from_view_depth(slice_end, ray.forward_cosine);
@@ -117,25 +123,27 @@ March froxel_march(vec2 uv, float surface, bool opaque, bool endless, vec3 ambie
     Extinction share = gathered_share(global_optical_depth(ray, begin, at) + local * length_share,
                                       global_optical_depth(ray, begin, end) + local, length_share);
 
-    March march;
-    march.radiance = mix(ends.radiance_begin, ends.radiance_end, vec3(share));
-    march.transmittance =
-        exp(-(global_optical_depth(ray, 0.0, at) + to_extinction(ends.local_begin) + local * length_share));
-    if (surface > froxel_far()) {
-        Extinction sun_front = Extinction(0.0);
+    return FroxelPart(at, mix(ends.radiance_begin, ends.radiance_end, vec3(share)), global_optical_depth(ray, 0.0, at),
+                      to_extinction(ends.local_begin) + local * length_share);
+}
+
+// The global media behind the end of the froxels. surface: view depth [m] of what is there; endless: of nothing, so that the
+// media go on. ambient: its mean radiance.
+void froxel_tail(Ray ray, float begin, float surface, bool endless, vec3 ambient, inout March march) {
+    Extinction sun_front = Extinction(0.0);
 #if HAS_SUN
-        sun_front = to_extinction(sun_optical_depth(ray.origin.y + ray.direction.y * at, -sun_direction()));
+    sun_front = to_extinction(sun_optical_depth(ray.origin.y + ray.direction.y * begin, -sun_direction()));
 #endif
-        march_tail(ray, at, ray_distance_from_view_depth(surface, ray.forward_cosine), endless, ambient, sun_front,
-                   march);
-    }
-    return march;
+    march_tail(ray, begin, ray_distance_from_view_depth(surface, ray.forward_cosine), endless, ambient, sun_front, march);
 }
 
 // At screen position uv (0..1, origin lower left) up to a view depth [m].
 FogInFront fog_at(vec2 uv, float view_depth) {
     vec3 ambient = view_depth > froxel_far() && volumetrics.has_ambient != 0u ? ambient_radiance() : vec3(0.0);
-    March march = froxel_march(uv, view_depth, false, false, ambient);
+    Ray ray = view_ray(uv);
+    FroxelPart part = froxel_part(ray, view_depth, false);
+    March march = March(part.radiance, exp(-(part.global_depth + part.local_depth)));
+    if (view_depth > froxel_far()) froxel_tail(ray, part.end, view_depth, false, ambient, march);
     return FogInFront(march.radiance, vec3(march.transmittance));
 }
 

@@ -1,5 +1,6 @@
-// Fills the froxel volume with the local media: sums of sigma_s, sigma_t and emission at each froxel's centre. The
-// anisotropy is stored as its product with the mean sigma_s, so that filtering averages it by scattering.
+// Fills the froxel volume with the local media: sums of sigma_s, sigma_t and emission, each in the mean over the part of the
+// column's ray that lies in the froxel, so that nothing is lost between slices, however thin. The anisotropy is stored as its
+// product with the mean sigma_s, so that filtering averages it by scattering.
 #include "shaders/lib/pack.glsl"
 #include "shaders/lib/work.glsl"
 #include "shaders/volumetrics/frame/data.glsl"
@@ -21,9 +22,11 @@ layout(rgba16f, binding = 1) writeonly uniform image3D froxel_extinction;
 layout(rgba16f, binding = 2) writeonly uniform image3D froxel_emission;
 #endif
 
-// Behind what a column and those around it see nobody looks, but for the march, which filters over one slice more.
+const int MOST_SAMPLES = 8;  // of a medium's noise in a froxel
+
+// Behind what a column and those around it see nobody looks.
 bool is_seen(ivec3 froxel, ivec3 size) {
-    float begin = froxel_slice_begin(froxel.z - 1, size.z);
+    float begin = froxel_slice_begin(froxel.z, size.z);
     for (int i = 0; i < 9; ++i) {
         int around = (i + 4) % 9;  // the column itself first
         ivec2 column = clamp(froxel.xy + ivec2(around % 3, around / 3) - 1, ivec2(0), size.xy - 1);
@@ -47,10 +50,9 @@ void main() {
         return;
     }
 
-    vec3 uvw = froxel_uvw_from_index(froxel, vec3(0.0), size);
-    Ray ray = view_ray(uvw.xy);
-    float view_depth = froxel_view_depth(uvw.z);
-    vec3 point = ray.origin + ray.direction * (view_depth / ray.forward_cosine);
+    Ray ray = view_ray((vec2(froxel.xy) + 0.5) / vec2(size.xy));
+    float begin = froxel_slice_begin(froxel.z, size.z) / ray.forward_cosine;
+    float end = froxel_slice_begin(froxel.z + 1, size.z) / ray.forward_cosine;
 
     vec4 scattering = vec4(0.0);
     vec3 extinction = vec3(0.0);
@@ -58,8 +60,12 @@ void main() {
     for (uint word = 0u; word < words; ++word) {
         for (uint bits = media_tiles[first + 1u + word]; bits != 0u; bits &= bits - 1u) {
             LocalMedium medium = local_media[32u * word + uint(findLSB(bits))];
+            vec2 part = inside_shape(medium, ray.origin, ray.direction, begin, end);
+            if (part.x >= part.y) continue;
             count_work(WORK_MEDIUM_SAMPLES, 1u);
-            float density = local_density(medium, point);
+            float density = (part.y - part.x) / (end - begin) *
+                            mean_density(medium, ray.origin, ray.direction, part.x, part.y) *
+                            mean_noise(medium, ray.origin, ray.direction, part.x, part.y, MOST_SAMPLES);
             vec3 sigma_s = medium.sigma_s_g.rgb * density;
             scattering += vec4(sigma_s, medium.sigma_s_g.w * dot(sigma_s, vec3(1.0 / 3.0)));
             extinction += sigma_s + medium.sigma_a_shape.rgb * density;

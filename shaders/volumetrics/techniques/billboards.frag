@@ -3,10 +3,10 @@
 // blended from the far to the near one: dst = radiance + dst * transmittance.
 // Global media are sheets over the whole screen, and behind the last one a horizon in closed form. Local media are sheets
 // over their own part of it; the optical depth is that of the chord in the shape, as of spherical billboards (Umenhoffer
-// et al. 2006), by the density at a point of the chord. Soft against depth: the slab ends at the surface, so a sheet has the
+// et al. 2006), by the mean density over it, and by the noise at a point of it. Soft against depth: the slab ends at the surface, so a sheet has the
 // share of its medium that lies in front. Faded near the eye: density falls to 0 over the last `fade` metres.
 //
-// Sampled at one point of each sheet: light, and the density of local media. Where that is differs from pixel to pixel
+// Sampled at one point of each sheet: light, and the noise of local media. Where that is differs from pixel to pixel
 // (noise_offset), so that filters and means over frames find the mean over the sheet. Optical depth and fade of global media
 // have no noise.
 //
@@ -47,7 +47,8 @@ Medium sheet_medium(Ray ray, vec2 part, vec3 point) {
     float path_length = part.y - part.x;
     if (slab.z >= 0.0) {
         LocalMedium local = local_media[int(slab.z)];
-        float density = is_homogeneous(local) ? 1.0 : local_density(local, point);
+        float density = mean_density(local, ray.origin, ray.direction, part.x, part.y);
+        if (has_noise(local)) density *= noise_density(local, to_shape(local, point));
         Medium m;
         m.sigma_s = local.sigma_s_g.rgb * density;
         m.anisotropy = local.sigma_s_g.w;

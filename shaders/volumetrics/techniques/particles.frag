@@ -13,14 +13,13 @@ layout(binding = 0) uniform sampler2D depth_texture;
 
 layout(location = 0) flat in vec4 center_radius;
 layout(location = 1) flat in vec4 light;
-layout(location = 2) flat in vec4 extinction;
+layout(location = 2) flat in float local;
 
 #if GLOBAL_MEDIA
 layout(location = 0) out vec4 out_global;
 #endif
 #if LOCAL_MEDIA
 layout(location = GLOBAL_MEDIA) out vec4 out_local;
-layout(location = GLOBAL_MEDIA + 1) out vec4 out_depth;
 #endif
 
 void main() {
@@ -36,11 +35,10 @@ void main() {
     float share = clamp((min(surface, t + radius) - max(t - radius, 0.0)) / (2.0 * radius), 0.0, 1.0);
     float weight = share * rest * rest * 3.0 / (PI * radius * radius);
 #if GLOBAL_MEDIA
-    out_global = weight * (1.0 - extinction.w) * light;
+    out_global = weight * (1.0 - local) * light;
 #endif
 #if LOCAL_MEDIA
-    out_local = weight * extinction.w * light;
-    out_depth = vec4(weight * extinction.rgb, 0.0);
+    out_local = weight * local * light;
 #endif
     flush_work();
 }

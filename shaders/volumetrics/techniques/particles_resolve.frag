@@ -3,19 +3,20 @@
 // Global media: their transmittance is a closed form, and so is int T sigma_s dt, of which the particles' sum is an
 // estimate. The light is scaled by the ratio of the two: what is lit alike is exact with any number of particles, and only
 // shadows and lamps are noise. Behind the particles: the closed form, without shadows or lamps.
-// Local media: transmittance = exp(-sum of the particles' optical depths), the Beer-Lambert law of their mean; the light is
-// scaled by the ratio of what this takes away, 1 - T, to what the particles' sum is for that.
+// Local media: their transmittance is that of their shapes (ray_media.glsl); the light is scaled by the ratio of what this takes
+// away, 1 - T, to what the particles' sum is for that.
 //
-// What it cannot do: detail finer than a particle; the rim of a local medium is soft by a particle's radius. A sum that
-// varies by dx from its mean x lets (dx)^2 / 2 more light through than exp(-x): thick local media of few particles are too
-// clear. One visibility for a particle: a shadow edge is as sharp as particles are small.
+// What it cannot do: light that changes within a particle; a pixel of a local medium that no particle covers has no light. One
+// visibility for a particle: a shadow edge is as sharp as particles are small.
 #include "shaders/lib/pack.glsl"
 #include "shaders/volumetrics/light/segment.glsl"
+#if LOCAL_MEDIA
+#include "shaders/volumetrics/media/ray_media.glsl"
+#endif
 
 layout(binding = 0) uniform sampler2D depth_texture;
-layout(binding = 1) uniform sampler2D global_texture;
-layout(binding = 2) uniform sampler2D local_texture;
-layout(binding = 3) uniform sampler2D local_depth_texture;
+layout(binding = 2) uniform sampler2D global_texture;
+layout(binding = 3) uniform sampler2D local_texture;
 uniform float reach;  // of the particles, m from the eye along the axes of the world
 
 layout(location = 0) flat in vec3 ambient;
@@ -24,8 +25,7 @@ layout(location = 0) out vec4 out_scattering;
 layout(location = 1) out vec4 out_transmittance;
 #endif
 
-void add_global_media(Ray ray, float depth, Extinction local_depth, inout March march) {
-    float surface = ray_distance_from_view_depth(view_depth_from_buffer(depth, volumetrics.eye.w), ray.forward_cosine);
+void add_global_media(Ray ray, float surface, bool endless, Extinction local_depth, inout March march) {
     vec3 along_axes = abs(ray.direction);
     float end = min(surface, reach / max(along_axes.x, max(along_axes.y, along_axes.z)));
     Medium m = global_medium(ray.origin.y, ray.direction.y, end);
@@ -42,24 +42,25 @@ void add_global_media(Ray ray, float depth, Extinction local_depth, inout March 
 #if HAS_SUN
     sun_front = to_extinction(sun_optical_depth(ray.origin.y + ray.direction.y * end, -sun_direction()));
 #endif
-    march_tail(ray, end, surface, is_background(depth), ambient, sun_front, march);
+    march_tail(ray, end, surface, endless, ambient, sun_front, march);
 }
 
 void main() {
     Ray ray = view_ray(screen_place(gl_FragCoord.xy));
     float depth = texelFetch(depth_texture, ivec2(gl_FragCoord.xy), 0).r;
+    float surface = ray_distance_from_view_depth(view_depth_from_buffer(depth, volumetrics.eye.w), ray.forward_cosine);
     March march = March(vec3(0.0), Extinction(1.0));
     Extinction local_depth = Extinction(0.0);
 #if LOCAL_MEDIA
-    count_work(WORK_TEXTURE_FETCHES, 2u);
+    count_work(WORK_TEXTURE_FETCHES, 1u);
     vec4 sum = texelFetch(local_texture, ivec2(gl_FragCoord.xy), 0);
-    local_depth = to_extinction(min(texelFetch(local_depth_texture, ivec2(gl_FragCoord.xy), 0).rgb, MAX_OPTICAL_DEPTH));
+    local_depth = to_extinction(local_optical_depth(ray, 0.0, surface));
     march.transmittance = exp(-local_depth);
     Extinction taken = local_depth * mean_transmittance(local_depth, march.transmittance);
     march.radiance = sum.rgb * (sum.a > 0.0 ? min(average(taken) / sum.a, 1.0e6) : 1.0);
 #endif
 #if GLOBAL_MEDIA
-    add_global_media(ray, depth, local_depth, march);
+    add_global_media(ray, surface, is_background(depth), local_depth, march);
     count_work(WORK_TEXTURE_FETCHES, 1u);
 #endif
     count_work(WORK_TEXTURE_FETCHES, 1u);

@@ -26,7 +26,6 @@ uniform int medium;            // index of the local medium; -1: the global ones
 uniform float radius;          // m
 uniform float volume;          // m^3
 uniform mat4 view_projection;  // of points relative to the eye
-uniform int has_global;
 // Global media: one level.
 uniform int side;              // cells
 uniform ivec3 lower_cell;      // its number in the world
@@ -73,21 +72,15 @@ bool in_view(vec3 center, vec4 clip) {
 
 // Of all local media over path_length metres from the eye.
 vec3 local_optical_depth(vec3 direction, float path_length) {
-    const int SAMPLES = 4;  // where density varies
+    const int MOST_SAMPLES = 4;  // of the noise of each
     vec3 depth = vec3(0.0);
     for (uint i = 0u; i < volumetrics.local_media_count; ++i) {
         LocalMedium local = local_media[i];
         vec2 inside = inside_shape(local, volumetrics.eye.xyz, direction, 0.0, path_length);
         if (inside.x >= inside.y) continue;
-        float density = 1.0;
-        if (!is_homogeneous(local)) {
-            density = 0.0;
-            for (int k = 0; k < SAMPLES; ++k) {
-                float t = mix(inside.x, inside.y, (float(k) + 0.5) / float(SAMPLES));
-                density += local_density(local, volumetrics.eye.xyz + direction * t) / float(SAMPLES);
-            }
-        }
-        depth += (local.sigma_s_g.rgb + local.sigma_a_shape.rgb) * (density * (inside.y - inside.x));
+        float density = mean_density(local, volumetrics.eye.xyz, direction, inside.x, inside.y) *
+                        mean_noise(local, volumetrics.eye.xyz, direction, inside.x, inside.y, MOST_SAMPLES);
+        depth += local_sigma_t(local) * (density * (inside.y - inside.x));
     }
     return depth;
 }
@@ -142,7 +135,7 @@ ParticleSprite lit_particle(vec3 center, vec4 clip, float share) {
         local_transmittance += exp(-local_optical_depth(ray.direction, t)) / float(samples);
     }
     vec3 sigma_t = m.optical_depth;
-    if (medium >= 0 && has_global != 0) sigma_t += global_medium(point.y, 0.0, 1.0).optical_depth;
+    if (medium >= 0 && volumetrics.has_global != 0u) sigma_t += global_medium(point.y, 0.0, 1.0).optical_depth;
     MediumSegment diameter = integrate_segment(min(sigma_t * (end - begin), MAX_OPTICAL_DEPTH), 1.0);
     Extinction front = exp(-to_extinction(global_depth)) * to_extinction(local_transmittance);
     Extinction through = to_extinction(diameter.effective_length);
@@ -166,7 +159,7 @@ ParticleSprite lit_particle(vec3 center, vec4 clip, float share) {
     ParticleSprite particle;
     particle.center_radius = vec4(center, radius);
     particle.light = scale * vec4(light, mean_channel(certain * own.effective_length));
-    particle.extinction = medium < 0 ? vec4(0.0) : vec4(scale * m.optical_depth, 1.0);
+    particle.local = vec4(medium < 0 ? 0.0 : 1.0, 0.0, 0.0, 0.0);
     return particle;
 }
 

@@ -24,7 +24,6 @@ uniform int steps;        // of the ray
 uniform int first_step;   // of this dispatch
 uniform int step_count;
 uniform int light_steps;  // per local medium on the way to a light
-uniform int has_global;
 
 // The last step is e^3 = 20 times as long as the first. Among 0, 1, 2, 3, 4 this had the least error, or near it, in places
 // of the sample level with and without near shadows.
@@ -50,7 +49,7 @@ Span media_span(Ray ray, ivec2 pixel) {
     span.endless = is_background(depth);
     span.begin = 0.0;
     span.end = min(span.surface, volumetrics.max_distance);
-    if (has_global != 0) return span;
+    if (volumetrics.has_global != 0u) return span;
     span.begin = span.surface;
     span.end = 0.0;
 #if LOCAL_MEDIA

@@ -22,7 +22,7 @@ vec3 sun_source(Ray ray, float t, Medium m, MediaMask towards_sun) {
 
 void end_ray(Ray ray, Span span, vec3 ambient, vec3 depth, inout March march) {
     march.transmittance = exp(-depth);
-    if (has_global == 0 || span.surface <= span.end) return;
+    if (volumetrics.has_global == 0u || span.surface <= span.end) return;
     vec3 sun_front = vec3(0.0);
 #if HAS_SUN
     sun_front = sun_optical_depth(ray.origin.y + ray.direction.y * span.end, -sun_direction());

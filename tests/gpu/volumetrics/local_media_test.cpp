@@ -108,13 +108,12 @@ TEST_P(VolumetricsLocalMedia, EmissionIsSummed) {
     EXPECT_EQ(frame.transmittance.at(0, 0)[0], 1);
 }
 
-TEST_P(VolumetricsLocalMedia, NothingIsLeftBehindTheFroxelVolume) {
+TEST_P(VolumetricsLocalMedia, MediaBehindTheFroxelVolumeDimToo) {
     host.size = {1, 1};
     host.view_depth = [](int, int) { return 100.0F; };
     host.local = {{.shape = Shape::box, .half_extent = glm::vec3(1000), .sigma_a = glm::vec3(0.05F)}};
     Settings settings = fine_settings();
-    settings.march.steps = 1024;
-    EXPECT_NEAR(host.render(settings).transmittance.at(0, 0)[0], std::exp(-0.05 * 40), 2e-3);
+    EXPECT_NEAR(host.render(settings).transmittance.at(0, 0)[0], std::exp(-0.05 * 100), 2e-4);
 }
 
 // Which media a tile holds must not show: every medium of many gives what it gives alone.
@@ -154,8 +153,7 @@ TEST_P(VolumetricsLocalMedia, TilesLoseNoMedium) {
 
 TEST_P(VolumetricsLocalMedia, MediaOutOfViewCostNothing) {
     host.local = {{.center = {0, 0, 30}, .sigma_a = glm::vec3(1)},
-                  {.center = {100, 0, -20}, .sigma_a = glm::vec3(1)},
-                  {.center = {0, 0, -500}, .sigma_a = glm::vec3(1)}};
+                  {.center = {100, 0, -20}, .sigma_a = glm::vec3(1)}};
     const Frame frame = host.render(fine_settings());
     EXPECT_TRUE(frame.live_passes.empty());
     EXPECT_EQ(frame.persistent_bytes, 0U);

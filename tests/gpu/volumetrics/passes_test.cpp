@@ -35,7 +35,7 @@ TEST_F(VolumetricsPasses, WithoutMediumNothingIsAddedOrHeld) {
         const Frame frame = host.render(Settings{});
         EXPECT_THAT(frame.live_passes, IsEmpty());
         EXPECT_THAT(frame.skipped,
-                    UnorderedElementsAre(Key("volumetrics/inject_media"), Key("volumetrics/froxel_runs"),
+                    UnorderedElementsAre(Key("volumetrics/noise_volume"),
                                          Key("volumetrics/depth_downsample"), Key("volumetrics/march"),
                                          Key("volumetrics/filter_horizontal"), Key("volumetrics/filter_vertical"),
                                          Key("volumetrics/relight"), Key("volumetrics/upsample"),
@@ -69,7 +69,10 @@ TEST_F(VolumetricsPasses, EachPassIsThereWhenItIsNeeded) {
     host.global.clear();
     host.local = {ball};
     EXPECT_THAT(host.render(settings).live_passes,
-                ElementsAre("volumetrics/froxel_columns", "volumetrics/inject_media", "volumetrics/march",
+                ElementsAre("volumetrics/march", "volumetrics/filter_horizontal", "volumetrics/filter_vertical"));
+    host.local[0].noise_scale = host.local[0].noise_amount = 1;
+    EXPECT_THAT(host.render(settings).live_passes,
+                ElementsAre("volumetrics/froxel_columns", "volumetrics/noise_volume", "volumetrics/march",
                             "volumetrics/filter_horizontal", "volumetrics/filter_vertical"));
 }
 

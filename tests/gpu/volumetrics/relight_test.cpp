@@ -165,9 +165,9 @@ TEST_F(VolumetricsRelight, LocalMediaAreSampledSliceBySlice) {
 }
 
 // Media in a row, which the march reads run by run of froxel slices.
-class VolumetricsRuns : public VolumetricsRelight {
+class VolumetricsParts : public VolumetricsRelight {
   protected:
-    VolumetricsRuns() {
+    VolumetricsParts() {
         host.has_sun = true;
         host.sun_direction = glm::normalize(glm::vec3(0.3F, -0.5F, 0.4F));
         host.sun_illuminance = {100, 80, 30};
@@ -196,7 +196,7 @@ class VolumetricsRuns : public VolumetricsRelight {
     }
 };
 
-TEST_F(VolumetricsRuns, MediumThatFillsAllIsTheClosedFormInAnyNumberOfSteps) {
+TEST_F(VolumetricsParts, MediumThatFillsAllIsTheClosedFormInAnyNumberOfSteps) {
     host.local = {box(glm::vec3(0), glm::vec3(1000), 0.05F)};
     host.local[0].anisotropy = 0.3F;
     for (const int steps : {1, 3, 8}) {
@@ -215,12 +215,12 @@ TEST_F(VolumetricsRuns, MediumThatFillsAllIsTheClosedFormInAnyNumberOfSteps) {
     }
 }
 
-TEST_F(VolumetricsRuns, EachMediumIsThatOfTheReference) {
+TEST_F(VolumetricsParts, EachMediumIsThatOfTheReference) {
     const float slice = 39.9F / 64;  // the froxels begin at the near plane, 0.1 m
     LocalMedium soft = box({0.5F, 0, 0}, {3, 3, 3}, 0.3F);
     soft.softness = 1;
-    // Root mean square over the mean of red; what froxels leave of the rims of boxes, and the sun's volume of its
-    // light, is most of them.
+    // Root mean square over the mean of red; what the sun's volume leaves of its light, and four steps of its shadow in the
+    // air, is most of them.
     struct Case {
         std::vector<LocalMedium> media;
         double tolerance, with_attenuation;
@@ -230,7 +230,7 @@ TEST_F(VolumetricsRuns, EachMediumIsThatOfTheReference) {
         {{box({-5, 1, -8}, {1.5F, 1.5F, 1.5F}, 0.2F)}, 0.003, 0.0035},  // over the screen's border
         {{soft}, 0.002, 0.003},                                         // round the camera
         {{box({0, 0, -5}, {9, 9, 1}, 0.3F), box({1, 0, -14}, {4, 4, 2}, 0.2F)}, 0.009, 0.035},  // with a gap
-        {{box({0, 0, -30}, {9, 9, 9}, 0.3F)}, 5e-4, 0.005},  // goes on behind the surface
+        {{box({0, 0, -30}, {9, 9, 9}, 0.3F)}, 5e-4, 0.015},  // behind the surface, before the sun
     };
     for (std::size_t i = 0; i < cases.size(); ++i) {
         host.local = cases[i].media;
@@ -251,13 +251,12 @@ TEST_F(VolumetricsRuns, EachMediumIsThatOfTheReference) {
     }
 }
 
-TEST_F(VolumetricsRuns, VisibilityIsSampledWhereTheLightComesFrom) {
+TEST_F(VolumetricsParts, VisibilityIsSampledWhereTheLightComesFrom) {
     // All pixels see the same ray, in 64 places: their mean is the whole light.
     host.size = {16, 16};
     host.vertical_fov = 0.002F;
     host.ambient = glm::vec3(0);
     host.shadows = 1;
-    // Boxes of whole slices: of others the froxels would make thinner or thicker ones.
     const float slice = 39.9F / 64;
     host.local = {box({0, 0, -0.1F - 8 * slice}, {9, 9, 2 * slice}, 0.3F),
                   box({1, 0, -0.1F - 21 * slice}, {4, 4, slice}, 0.4F)};
@@ -273,12 +272,12 @@ TEST_F(VolumetricsRuns, VisibilityIsSampledWhereTheLightComesFrom) {
             Settings settings = coarse(steps);
             settings.light.transmittance = attenuation;
             const double expected = mean(truth(settings).scattering);
-            EXPECT_NEAR(mean(host.render(settings).scattering), expected, 0.03 * expected) << steps << attenuation;
+            EXPECT_NEAR(mean(host.render(settings).scattering), expected, 0.05 * expected) << steps << attenuation;
         }
     }
 }
 
-TEST_F(VolumetricsRuns, VisibilityFollowsTheDensityOfAHeightMedium) {
+TEST_F(VolumetricsParts, VisibilityFollowsTheDensityOfAHeightMedium) {
     // Rays that rise out of a height medium, sampled once: most of the light comes from near the eye.
     host.size = {32, 32};
     host.vertical_fov = 1.2F;
@@ -307,21 +306,19 @@ TEST_F(VolumetricsRuns, VisibilityFollowsTheDensityOfAHeightMedium) {
     expect_alike(light, 0.04);
 }
 
-TEST_F(VolumetricsRuns, OnlySlicesInWhichMediaChangeCost) {
+// A part costs a sample of the global media, and one of each local medium in it.
+TEST_F(VolumetricsParts, OnlyMediaOnTheRayCostAndDenseOnesMore) {
     Settings settings = coarse(4);
     settings.light.transmittance = false;
-    settings.froxels.distribution = volumetrics::DepthDistribution::exponential;
     EXPECT_EQ(samples(settings), 4);
-    host.local = {box(glm::vec3(0), glm::vec3(1000), 0.05F)};
-    EXPECT_LE(samples(settings), 6);
     host.local = {box({0, 0, -8}, glm::vec3(0.5F), 0.2F)};
-    const double one = samples(settings);
-    EXPECT_LE(one, 6);
-    host.local[0] = box(glm::vec3(0), glm::vec3(1000), 0.2F);
-    host.local[0].noise_scale = 0.5F;
-    host.local[0].noise_amount = 1;
-    EXPECT_GE(samples(settings), 4 * one);
-    EXPECT_LE(samples(settings), 64 + 4);
+    EXPECT_LE(samples(settings), 6);  // few pixels see it
+    host.local = {box(glm::vec3(0), glm::vec3(1000), 0.001F)};
+    const double thin = samples(settings);
+    EXPECT_LE(thin, 2 * (4 + 1));
+    host.local = {box(glm::vec3(0), glm::vec3(1000), 2)};
+    EXPECT_GT(samples(settings), thin);
+    EXPECT_LE(samples(settings), 2 * (4 + 12));
 }
 
 TEST_F(VolumetricsRelight, FrameSaysWhyLightIsFilteredWhole) {

@@ -107,7 +107,7 @@ TEST(VolumetricsMedia, FroxelBoundsHoldEveryPointInView) {
                 .center = {30 * unit(random), 10 * unit(random), 30 * unit(random)},
                 .half_extent = {0.1F + 3 * std::abs(unit(random)), 0.1F + 3 * std::abs(unit(random)), 1},
                 .rotation = glm::angleAxis(3 * unit(random), glm::normalize(glm::vec3(1, unit(random), 1)))};
-            const IndexBox box = froxel_bounds(medium, inputs, grid);
+            const IndexBox box = froxel_bounds(view_bounds(medium, inputs), grid);
             for (int i = 0; i < 100; ++i) {
                 const glm::vec3 local = glm::vec3(unit(random), unit(random), unit(random)) * medium.half_extent;
                 const glm::vec4 view = inputs.view * glm::vec4(medium.center + medium.rotation * local, 1);
@@ -127,20 +127,42 @@ TEST(VolumetricsMedia, FroxelBoundsHoldEveryPointInView) {
     }
 }
 
-TEST(VolumetricsMedia, WithoutAGlobalMediumTheMarchKeepsToTheDepthsOfLocalOnes) {
-    Inputs inputs = view_inputs();
-    inputs.local = {
-        {.shape = Shape::box, .center = {0, 0, -20}, .half_extent = {1, 1, 2}, .sigma_s = glm::vec3(1)},
-        {.shape = Shape::box, .center = {0, 0, -40}, .half_extent = {1, 1, 2}, .sigma_s = glm::vec3(1)}};
-    const glm::vec4 depths = gather_media(inputs, {}).data.medium_depths;
-    EXPECT_LE(depths.x, 18);  // and no more than two slices of 9% too near or far
-    EXPECT_GT(depths.x, 15);
-    EXPECT_GE(depths.y, 42);
-    EXPECT_LT(depths.y, 51);
-    inputs.global = {{.sigma_s = glm::vec3(0.01F)}};
-    const glm::vec4 everywhere = gather_media(inputs, {}).data.medium_depths;
-    EXPECT_EQ(everywhere.x, 0);
-    EXPECT_GE(everywhere.y, 1e9F);
+// Against points drawn from the shapes, near and far: each is in a tile that lists its medium.
+TEST(VolumetricsMedia, TilesOfTheScreenListEveryMediumSeenInThem) {
+    std::mt19937 random(5);
+    std::uniform_real_distribution<float> unit(-1, 1);
+    std::size_t points = 0;
+    for (int trial = 0; trial < 30; ++trial) {
+        Inputs inputs = view_inputs({unit(random), unit(random), unit(random)},
+                                    {10 * unit(random), 5 * unit(random), 10 * unit(random)});
+        for (int i = 0; i < 40; ++i)
+            inputs.local.push_back({.center = glm::vec3(unit(random), unit(random), unit(random)) * 300.0F,
+                                    .half_extent = {0.1F + 30 * std::abs(unit(random)), 1, 2},
+                                    .rotation = glm::angleAxis(3 * unit(random), glm::vec3(0, 0, 1)),
+                                    .sigma_a = glm::vec3(1 + static_cast<float>(i))});
+        const FrameMedia media = gather_media(inputs, {});
+        const std::vector<std::uint32_t> lists = screen_media(media.local_bounds);
+        const std::size_t words = (media.local.size() + 31) / 32;
+        ASSERT_EQ(lists.size(), words * SCREEN_MEDIA_X * SCREEN_MEDIA_Y);
+        for (const LocalMedium& medium : inputs.local)
+            for (int k = 0; k < 20; ++k) {
+                const glm::vec3 local = glm::vec3(unit(random), unit(random), unit(random)) * medium.half_extent;
+                const glm::vec4 clip = inputs.projection * inputs.view *
+                                       glm::vec4(medium.center + medium.rotation * local, 1);
+                if (clip.w <= 0 || std::abs(clip.x) >= clip.w || std::abs(clip.y) >= clip.w) continue;
+                const auto index = static_cast<std::size_t>(
+                    std::ranges::find_if(media.local, [&](const shared::LocalMedium& m) {
+                        return m.sigma_a_shape.x == medium.sigma_a.x;
+                    }) - media.local.begin());
+                ASSERT_LT(index, media.local.size());
+                const glm::ivec2 tile((0.5F * glm::vec2(clip) / clip.w + 0.5F) *
+                                      glm::vec2(SCREEN_MEDIA_X, SCREEN_MEDIA_Y));
+                const std::size_t first = words * static_cast<std::size_t>(tile.y * SCREEN_MEDIA_X + tile.x);
+                EXPECT_TRUE(lists[first + index / 32] >> index % 32 & 1U);
+                ++points;
+            }
+    }
+    EXPECT_GT(points, 1000U);
 }
 
 TEST(VolumetricsMedia, LiveTilesHoldWhichBoxesMeetWhichTiles) {

@@ -40,6 +40,7 @@ struct Pass {
     TextureRef depth_test = {};            ///< the host's depth buffer, which hides what is drawn
     bool lit = false;                      ///< reads shaders/interface/{lights,shadows}.glsl
     bool light_volumes = false;            ///< reads what local media leave of light on its way
+    bool local_media = false;              ///< reads shaders/volumetrics/media/{local,ray}_media.glsl
     gl::DrawState state = {};
     /// Uniforms, buffers and clears of its own, before it draws.
     std::function<void(const PassContext&, const gl::Program&)> set = {};

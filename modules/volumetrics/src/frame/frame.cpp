@@ -24,7 +24,7 @@ struct Running {
     std::vector<Pass::Source> sources;
     std::vector<TextureRef> images;
     Fog fog;
-    bool draws, light_volumes;
+    bool draws, light_volumes, local_media;
     gl::DrawState state;
     std::function<void()> bind_lighting;
     std::function<void(const PassContext&, const gl::Program&)> set;
@@ -34,6 +34,10 @@ struct Running {
     void operator()(const PassContext& context) const {
         if (bind_lighting) bind_lighting();
         if (light_volumes) resources.light_volumes.bind();
+        if (local_media && resources.local_media) {
+            resources.local_media.bind(GL_SHADER_STORAGE_BUFFER, BINDING_LOCAL_MEDIA);
+            resources.screen_media.bind(GL_SHADER_STORAGE_BUFFER, BINDING_SCREEN_MEDIA);
+        }
         resources.noise.bind();
         resources.uniforms.bind(GL_UNIFORM_BUFFER, BINDING_VOLUMETRICS);
         if (fog) bind_fog_textures(context, fog);
@@ -103,6 +107,7 @@ void Frame::add(const Pass& pass) {
                     .fog = pass.fog,
                     .draws = !pass.targets.empty(),
                     .light_volumes = pass.light_volumes,
+                    .local_media = pass.local_media,
                     .state = pass.state,
                     .bind_lighting = lit ? inputs.bind_lighting : nullptr,
                     .set = pass.set,

@@ -4,39 +4,32 @@
 
 namespace tyndall::volumetrics {
 
-void Resources::upload(const Settings& settings, FrameMedia& media) {
+void Resources::upload(const Settings& settings, const FrameMedia& media) {
     if (!nearest.id()) {
         nearest = gl::Sampler({.min_filter = GL_NEAREST, .mag_filter = GL_NEAREST}, "volumetrics nearest");
         linear = gl::Sampler({}, "volumetrics linear");
     }
     uniforms.assign(std::span<const shared::VolumetricsData>(&media.data, 1), "volumetrics uniforms");
-    if (media.local.empty())
-        local_media = {};
-    else
-        local_media.assign(std::span<const shared::LocalMedium>(media.local), "volumetrics local media");
-    if (media.local_froxels.empty()) {
-        media_tiles = {};
+    if (media.local.empty()) {
+        for (gl::Buffer* buffer : {&local_media, &screen_media, &media_tiles}) *buffer = {};
     } else {
-        const glm::ivec3 froxels{settings.froxels.x, settings.froxels.y, settings.froxels.z};
-        const std::vector<std::uint32_t> tiles = live_tiles(media.local_froxels, froxels);
-        media.live_tiles = tiles.size() / (1 + (media.local_froxels.size() + 31) / 32);
-        media_tiles.assign(std::span<const std::uint32_t>(tiles), "volumetrics media tiles");
+        local_media.assign(std::span<const shared::LocalMedium>(media.local), "volumetrics local media");
+        screen_media.assign(std::span<const std::uint32_t>(volumetrics::screen_media(media.local_bounds)),
+                            "volumetrics media of the screen");
     }
     noise.prepare(settings);
 }
 
 void Resources::release() {
-    uniforms = {};
-    local_media = {};
-    media_tiles = {};
+    for (gl::Buffer* buffer : {&uniforms, &local_media, &screen_media, &media_tiles}) *buffer = {};
     light_volumes.release();
     noise.release();
     temporal.release();
 }
 
 std::size_t Resources::bytes() const {
-    return uniforms.size() + local_media.size() + media_tiles.size() + light_volumes.bytes() + noise.bytes() +
-           temporal.bytes();
+    return uniforms.size() + local_media.size() + screen_media.size() + media_tiles.size() + light_volumes.bytes() +
+           noise.bytes() + temporal.bytes();
 }
 
 }  // namespace tyndall::volumetrics

@@ -15,13 +15,14 @@ namespace tyndall::volumetrics {
 /// What the passes of all techniques share.
 struct Resources {
     gl::Sampler nearest, linear;
-    gl::Buffer uniforms, local_media, media_tiles;
+    gl::Buffer uniforms, local_media, screen_media, media_tiles;
     LightVolumes light_volumes;
     NoiseSource noise;
     TemporalHistory temporal;
     std::optional<FroxelMedia> froxel_media;  ///< of this frame, once a pass asked for it
+    std::optional<TextureRef> noise_volume;   ///< likewise
 
-    void upload(const Settings& settings, FrameMedia& media);
+    void upload(const Settings& settings, const FrameMedia& media);
     /// No medium is in view: frees all but the samplers.
     void release();
     [[nodiscard]] std::size_t bytes() const;  ///< held between frames

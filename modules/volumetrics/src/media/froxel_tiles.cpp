@@ -26,12 +26,15 @@ ViewBounds view_bounds(const LocalMedium& medium, const Inputs& inputs) {
     return bounds;
 }
 
-IndexBox froxel_bounds(const LocalMedium& medium, const Inputs& inputs, const FroxelGrid& grid) {
-    const ViewBounds bounds = view_bounds(medium, inputs);
-    if (bounds.farthest <= 0 || bounds.nearest >= grid.farthest) return {};
+bool ViewBounds::in_view() const {
+    return farthest > 0 && glm::all(glm::lessThan(lower, glm::vec2(1))) &&
+           glm::all(glm::greaterThan(upper, glm::vec2(0)));
+}
+
+IndexBox froxel_bounds(const ViewBounds& bounds, const FroxelGrid& grid) {
+    if (!bounds.in_view() || bounds.nearest >= grid.farthest) return {};
     const auto w = [&](float depth) { return grid.w(std::max(depth, 0.0F)); };
-    // A froxel centre within half a froxel of the bound is taken too: rounding never loses one. In front of the
-    // first slice's centre the march reads the first slice, so a medium there still counts as in it.
+    // A froxel more all round: rounding never loses one.
     const glm::vec3 size = grid.size;
     const glm::vec3 lower = glm::clamp(glm::vec3(bounds.lower, w(bounds.nearest)), -1.0F, 2.0F) * size - 1.0F;
     const glm::vec3 upper = glm::clamp(glm::vec3(bounds.upper, w(bounds.farthest)), -1.0F, 2.0F) * size + 1.0F;
@@ -40,16 +43,21 @@ IndexBox froxel_bounds(const LocalMedium& medium, const Inputs& inputs, const Fr
     return box;
 }
 
-glm::vec2 view_depths(std::span<const IndexBox> boxes, const FroxelGrid& grid) {
-    int first = grid.size.z, last = 0;
-    for (const IndexBox& box : boxes) {
-        first = std::min(first, box.lower.z);
-        last = std::max(last, box.upper.z);
+std::vector<std::uint32_t> screen_media(std::span<const ViewBounds> bounds) {
+    constexpr glm::ivec2 tiles{SCREEN_MEDIA_X, SCREEN_MEDIA_Y};
+    const std::size_t words = (bounds.size() + 31) / 32;
+    std::vector<std::uint32_t> masks(words * tiles.x * tiles.y);
+    for (std::size_t i = 0; i < bounds.size(); ++i) {
+        // A hair more all round: rounding never loses a pixel.
+        const glm::vec2 lower = glm::clamp(bounds[i].lower, -1.0F, 2.0F) - 1e-4F;
+        const glm::vec2 upper = glm::clamp(bounds[i].upper, -1.0F, 2.0F) + 1e-4F;
+        const glm::ivec2 first = glm::max(glm::ivec2(glm::floor(lower * glm::vec2(tiles))), 0);
+        const glm::ivec2 end = glm::min(glm::ivec2(glm::ceil(upper * glm::vec2(tiles))), tiles);
+        for (int y = first.y; y < end.y; ++y)
+            for (int x = first.x; x < end.x; ++x)
+                masks[words * static_cast<std::size_t>(y * tiles.x + x) + i / 32] |= 1U << i % 32;
     }
-    const auto depth = [&](int slice) {
-        return grid.view_depth(static_cast<float>(slice) / static_cast<float>(grid.size.z));
-    };
-    return {first == 0 ? 0 : depth(first), depth(last)};
+    return masks;
 }
 
 std::vector<std::uint32_t> live_tiles(std::span<const IndexBox> boxes, glm::ivec3 froxels) {

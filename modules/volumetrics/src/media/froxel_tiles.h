@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <vector>
 
@@ -10,19 +9,14 @@
 
 namespace tyndall::volumetrics {
 
-/// Of a medium's corners: view depths [m] and bounds on the screen (0..1); the whole screen where it reaches behind
-/// the eye.
-struct ViewBounds {
-    float nearest = std::numeric_limits<float>::max(), farthest = std::numeric_limits<float>::lowest();
-    glm::vec2 lower{std::numeric_limits<float>::max()}, upper{std::numeric_limits<float>::lowest()};
-};
 [[nodiscard]] ViewBounds view_bounds(const LocalMedium& medium, const Inputs& inputs);
 
-/// The froxels whose centres a medium may cover, never too few; empty when it is out of view.
-[[nodiscard]] IndexBox froxel_bounds(const LocalMedium& medium, const Inputs& inputs, const FroxelGrid& grid);
+/// The froxels that a medium may touch, never too few; empty where they do not reach it.
+[[nodiscard]] IndexBox froxel_bounds(const ViewBounds& bounds, const FroxelGrid& grid);
 
-/// Nearest and farthest view depth [m] of the slices that the boxes take up.
-[[nodiscard]] glm::vec2 view_depths(std::span<const IndexBox> boxes, const FroxelGrid& grid);
+/// For each tile of SCREEN_MEDIA_X × SCREEN_MEDIA_Y of the screen, from the lower left on and along x first, a bit
+/// for each medium that may be seen in it, in (bounds.size() + 31) / 32 words.
+[[nodiscard]] std::vector<std::uint32_t> screen_media(std::span<const ViewBounds> bounds);
 
 /// Froxels of one tile: one work group of shaders/volumetrics/media/inject_media.comp.
 constexpr glm::ivec3 froxel_tile{16, 16, 1};

@@ -2,6 +2,7 @@
 
 #include "frame/resources.h"
 #include "media/froxel_media.h"
+#include "media/froxel_tiles.h"
 #include "shaders/shared/bindings.h"
 #include "volumetrics/frame.h"
 
@@ -25,18 +26,20 @@ FroxelMedia add_inject_media(Frame& frame) {
     froxels.extinction = frame.passes.create("volumetrics/froxel_extinction", desc);
     if (frame.media.local_emission) froxels.emission = frame.passes.create("volumetrics/froxel_emission", desc);
 
-    const auto tiles = static_cast<GLuint>(frame.media.live_tiles);
+    const std::vector<std::uint32_t> live = live_tiles(frame.media.local_froxels, desc.size);
+    frame.resources.media_tiles.assign(std::span<const std::uint32_t>(live), "volumetrics media tiles");
+    const auto tiles = static_cast<GLuint>(live.size() / (1 + (frame.media.local.size() + 31) / 32));
     constexpr GLuint row = 1024;  // more groups than one dimension takes
     frame.add(
         {.name = "volumetrics/inject_media",
          .program = frame.program(program, {{"EMISSION", frame.media.local_emission}}),
          .sources = {{froxels.columns}},
          .images = {{&froxels.scattering}, {&froxels.extinction}, {&froxels.emission}},
+         .local_media = true,
          .set =
              [froxels, tiles, &resources = frame.resources](const PassContext& context, const gl::Program& shader) {
                  for (const TextureRef ref : {froxels.scattering, froxels.extinction, froxels.emission})
                      if (ref) glClearTexImage(context.texture(ref).id, 0, GL_RGBA, GL_FLOAT, nullptr);
-                 resources.local_media.bind(GL_SHADER_STORAGE_BUFFER, BINDING_LOCAL_MEDIA);
                  resources.media_tiles.bind(GL_SHADER_STORAGE_BUFFER, BINDING_MEDIA_TILES);
                  shader.set("tile_count", tiles);
              },

@@ -62,8 +62,8 @@ shared::LocalMedium pack_local(const LocalMedium& medium) {
     packed.sigma_s_g = {medium.sigma_s, medium.anisotropy};
     packed.sigma_a_shape = {medium.sigma_a, packed.sigma_a_shape.w};
     packed.emission_noise = {medium.emission, noise ? medium.noise_amount : 0.0F};
-    packed.noise_height = {medium.noise_scale, static_cast<float>(medium.noise_seed), medium.base,
-                           medium.height ? medium.falloff : 0.0F};
+    packed.noise_height = {medium.noise_scale, 0, medium.base, medium.height ? medium.falloff : 0.0F};
+    packed.noise_seed.x = medium.noise_seed;
     return packed;
 }
 
@@ -84,37 +84,28 @@ void add_global(const Inputs& inputs, FrameMedia& media) {
     media.data.height_media_count = static_cast<unsigned>(heights);
 }
 
-void add_local(const LocalMedium& medium, FrameMedia& media) {
+void add_local(const LocalMedium& medium, const ViewBounds& bounds, FrameMedia& media) {
     media.local.push_back(pack_local(medium));
+    media.local_bounds.push_back(bounds);
     media.local_emission |= !is_zero(medium.emission);
+    media.local_noise |= media.local.back().emission_noise.w > 0;
     media.chromatic |= is_coloured(medium.sigma_s + medium.sigma_a);
 }
 
-void add_local_in_view(const Inputs& inputs, const FroxelGrid& grid, FrameMedia& media) {
-    for (const LocalMedium& medium : inputs.local) {
-        if (does_nothing(medium) || is_empty(medium)) continue;
-        const IndexBox box = froxel_bounds(medium, inputs, grid);
-        if (box.empty()) continue;
-        add_local(medium, media);
-        media.local_froxels.push_back(box);
-    }
-}
-
-/// All, also those that only attenuate light on its way to another: if any is in view, or a global medium is.
-void add_all_local(const Inputs& inputs, const FroxelGrid& froxels, FrameMedia& media) {
-    FroxelGrid grid = froxels;
-    grid.farthest = 1e9F;
+/// Those in view. For the technique reference all, also those that only attenuate light on its way to another: if
+/// any is in view, or a global medium is.
+void add_local(const Inputs& inputs, bool unseen, FrameMedia& media) {
     bool seen = media.has_global;
     for (const LocalMedium& medium : inputs.local) {
         if (does_nothing(medium)) continue;
-        add_local(medium, media);
-        if (inputs.transparents)
-            media.local_froxels.push_back(is_empty(medium) ? IndexBox() : froxel_bounds(medium, inputs, froxels));
-        seen |= !froxel_bounds(medium, inputs, grid).empty();
+        const bool empty = is_empty(medium);
+        const ViewBounds bounds = empty ? ViewBounds() : view_bounds(medium, inputs);
+        seen |= bounds.in_view();
+        if (bounds.in_view() || unseen) add_local(medium, bounds, media);
     }
     if (seen) return;
     media.local.clear();
-    media.local_froxels.clear();
+    media.local_bounds.clear();
 }
 
 /// Whatever the view: what dims the light of a place in view may be out of it, and volumes of all media outlast a
@@ -130,20 +121,12 @@ void add_attenuating(const Inputs& inputs, FrameMedia& media) {
     }
 }
 
-void add_local(const Inputs& inputs, const Settings& settings, FrameMedia& media) {
+void set_froxels(const Inputs& inputs, const Settings& settings, FrameMedia& media) {
     const FroxelGrid grid = froxel_grid(inputs, settings);
-    if (technique(settings.technique).traits.unseen_local_media)
-        add_all_local(inputs, grid, media);
-    else
-        add_local_in_view(inputs, grid, media);
-    media.data.local_media_count = static_cast<unsigned>(media.local.size());
+    for (const ViewBounds& bounds : media.local_bounds) media.local_froxels.push_back(froxel_bounds(bounds, grid));
     media.data.froxel_distribution = static_cast<unsigned>(grid.distribution);
     media.data.froxel_begins = grid.begins;
     media.data.froxel_lengths = grid.lengths;
-    media.data.medium_depths = {0, 1e9F, 0, 0};
-    if (!media.has_global && !media.local_froxels.empty() &&
-        !technique(settings.technique).traits.unseen_local_media)
-        media.data.medium_depths = glm::vec4(view_depths(media.local_froxels, grid), 0, 0);
     media.data.froxel_depths = {grid.nearest, grid.farthest, 0, 0};
 }
 
@@ -194,13 +177,17 @@ FrameMedia gather_media(const Inputs& inputs, const Settings& settings) {
     if (!desc.add) return media;
     add_global(inputs, media);
     if (desc.traits.local_media) {
-        add_local(inputs, settings, media);
+        add_local(inputs, desc.traits.unseen_local_media, media);
+        set_froxels(inputs, settings, media);
         if (settings.light.transmittance && (inputs.has_sun || inputs.has_lamps)) add_attenuating(inputs, media);
     }
     if (media.empty() && media.attenuating.empty()) return media;
     set_view(inputs, settings, media.data);
     set_stepping(settings, media.data);
     media.data.coloured_froxels = media.chromatic && !media.local.empty() ? 1U : 0U;
+    media.data.local_media_count = static_cast<unsigned>(media.local.size());
+    media.data.has_global = media.has_global ? 1U : 0U;
+    media.data.local_noise = media.local_noise ? 1U : 0U;
     media.data.local_emission = media.local_emission ? 1U : 0U;
     media.data.steps = static_cast<unsigned>(settings.march.steps);
     media.data.noise_side = static_cast<unsigned>(noise_side(settings));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "shaders/shared/volumetrics.h"
@@ -7,6 +8,15 @@
 #include "volumetrics/settings.h"
 
 namespace tyndall::volumetrics {
+
+/// Of a local medium: view depths [m] and bounds on the screen (0..1); the whole screen where it reaches behind the
+/// eye.
+struct ViewBounds {
+    float nearest = std::numeric_limits<float>::max(), farthest = std::numeric_limits<float>::lowest();
+    glm::vec2 lower{std::numeric_limits<float>::max()}, upper{std::numeric_limits<float>::lowest()};
+    /// Some of it may be seen.
+    [[nodiscard]] bool in_view() const;
+};
 
 /// A range of froxels: lower corner included, upper not.
 struct IndexBox {
@@ -25,12 +35,12 @@ struct AttenuatingMedium {
 struct FrameMedia {
     shared::VolumetricsData data{};
     std::vector<shared::LocalMedium> local;
-    /// That each local medium may touch; none for the reference without transparents.
-    std::vector<IndexBox> local_froxels;
-    std::size_t live_tiles = 0;                  ///< of the froxel volume: entries of live_tiles()
+    std::vector<ViewBounds> local_bounds;        ///< of each
+    std::vector<IndexBox> local_froxels;         ///< that each may touch
     std::vector<AttenuatingMedium> attenuating;  ///< none where light_transmittance is off or no sun or lamp shines
     bool has_global = false;
     bool local_emission = false;
+    bool local_noise = false;
     bool rayleigh = false;   ///< some medium scatters as air does
     bool chromatic = false;  ///< some medium's extinction is coloured, or is taken so: always where `rayleigh`
 

@@ -60,13 +60,11 @@ glm::vec2 depths_of(const shared::LocalMedium& medium, const glm::mat4& view) {
 
 void add_local(const Inputs& inputs, const Settings& settings, const FrameMedia& media,
                std::vector<shared::Billboard>& sprites) {
-    const glm::vec2 froxels{settings.froxels.x, settings.froxels.y};
     for (std::size_t i = 0; i < media.local.size(); ++i) {
         const glm::vec2 depths = depths_of(media.local[i], inputs.view);
         if (depths.x >= depths.y) continue;
-        const IndexBox& box = media.local_froxels[i];
-        const glm::vec4 rect{2.0F * glm::vec2(box.lower) / froxels - 1.0F,
-                             2.0F * glm::vec2(box.upper) / froxels - 1.0F};
+        const ViewBounds& bounds = media.local_bounds[i];
+        const glm::vec4 rect = 2.0F * glm::clamp(glm::vec4(bounds.lower, bounds.upper), -1.0F, 2.0F) - 1.0F;
         const auto depth = [&](int layer) {
             return glm::mix(depths.x, depths.y,
                             static_cast<float>(layer) / static_cast<float>(settings.billboards.local_layers));
@@ -105,16 +103,15 @@ Layers add_draw(Frame& frame, const gl::Buffer& sprites, GLsizei count) {
                .depth_test = hides ? frame.depth : TextureRef{},
                .lit = true,
                .light_volumes = true,
+               .local_media = true,
                .state = {.depth_test = hides, .blend = gl::Blend::premultiplied},
                .set =
-                   [&sprites, &resources = frame.resources, targets = static_cast<GLint>(layers.size()),
-                    fade = frame.settings.billboards.fade](const PassContext&, const gl::Program& shader) {
+                   [&sprites, targets = static_cast<GLint>(layers.size()), fade = frame.settings.billboards.fade](
+                       const PassContext&, const gl::Program& shader) {
                        const glm::vec4 nothing{0, 0, 0, 1};
                        for (GLint target = 0; target < targets; ++target)
                            glClearBufferfv(GL_COLOR, target, &nothing.x);
                        sprites.bind(GL_SHADER_STORAGE_BUFFER, BINDING_SPRITES);
-                       if (resources.local_media)
-                           resources.local_media.bind(GL_SHADER_STORAGE_BUFFER, BINDING_LOCAL_MEDIA);
                        shader.set("fade", fade);
                    },
                .draw = [count] { draw_sprites(count); }});

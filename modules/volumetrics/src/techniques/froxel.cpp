@@ -1,4 +1,5 @@
 #include "frame/resources.h"
+#include "media/noise_volume.h"
 #include "shaders/shared/bindings.h"
 #include "techniques/froxel_fog.h"
 #include "techniques/froxel_history.h"
@@ -9,11 +10,12 @@
 namespace tyndall::volumetrics {
 namespace {
 
-const ProgramDesc program{.name = "volumetrics/froxel_apply",
-                          .stages = {{GL_VERTEX_SHADER, "shaders/volumetrics/techniques/view_ray.vert"},
-                                     {GL_FRAGMENT_SHADER, "shaders/volumetrics/techniques/froxel_apply.frag"}},
-                          .axes = {{"HAS_SUN", {0, 1}}, {"CHROMATIC", {0, 1}}, {"COUNT_WORK", {0, 1}}},
-                          .valid = {}};
+const ProgramDesc program{
+    .name = "volumetrics/froxel_apply",
+    .stages = {{GL_VERTEX_SHADER, "shaders/volumetrics/techniques/view_ray.vert"},
+               {GL_FRAGMENT_SHADER, "shaders/volumetrics/techniques/froxel_apply.frag"}},
+    .axes = {{"LOCAL_MEDIA", {0, 1}}, {"HAS_SUN", {0, 1}}, {"CHROMATIC", {0, 1}}, {"COUNT_WORK", {0, 1}}},
+    .valid = {}};
 const ProgramRegistry::Registration registration(program);
 
 Estimate add(Frame& frame) {
@@ -23,11 +25,13 @@ Estimate add(Frame& frame) {
     estimate.fog = add_froxel_fog(frame, keeps ? &frame.kept<FroxelHistory>() : nullptr);
     frame.add({.name = "volumetrics/froxel_apply",
                .program = frame.program(program),
-               .sources = {{frame.depth}},
+               .sources = {{frame.depth}, {noise_volume(frame), true}},
                .fog = estimate.fog,
                .targets = {&estimate.scattering, &estimate.transmittance},
                // Behind the end of the froxels there are sun and ambient light, but neither lamps nor shadows.
-               .lit = frame.inputs.has_sun || frame.inputs.has_ambient});
+               .lit = frame.inputs.has_sun || frame.inputs.has_ambient,
+               .light_volumes = true,
+               .local_media = true});
     return estimate;
 }
 
@@ -60,8 +64,9 @@ TechniqueDesc froxel() {
     return {.name = "froxel",
             .help = "Lights a grid of froxels, which transparents read too; its own history of visibility.",
             .settings = "froxel",
-            .passes = {"volumetrics/froxel_columns", "volumetrics/inject_media", "volumetrics/froxel_light",
-                       "volumetrics/froxel_history", "volumetrics/froxel_accumulate", "volumetrics/froxel_apply"},
+            .passes = {"volumetrics/froxel_columns", "volumetrics/noise_volume", "volumetrics/inject_media",
+                       "volumetrics/froxel_light", "volumetrics/froxel_history", "volumetrics/froxel_accumulate",
+                       "volumetrics/froxel_apply"},
             .traits = {.any_resolution = true},
             .add = add};
 }

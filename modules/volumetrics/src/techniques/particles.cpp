@@ -1,4 +1,5 @@
 #include "frame/resources.h"
+#include "media/noise_volume.h"
 #include "reconstruction/reconstruction.h"
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/sprites.h"
@@ -65,30 +66,28 @@ BufferRef add_simulate(Frame& frame, gl::Buffer& sprites, std::vector<ParticleBa
     if (sprites.size() != bytes) sprites = gl::Buffer(bytes, "volumetrics particles");
     BufferRef particles = frame.passes.import_buffer("volumetrics/particles", sprites.id());
     const gl::Program& shader = frame.program(simulate_program, {{"LAMPS", frame.inputs.has_lamps ? 2 : 0}});
-    frame.add({.name = "volumetrics/particles_simulate",
-               .program = shader,
-               .written = {&particles},
-               .lit = true,
-               .light_volumes = true,
-               .set =
-                   [&sprites, &resources = frame.resources, matrix = view_projection(frame.inputs),
-                    has_global = frame.media.has_global](const PassContext&, const gl::Program& program) {
-                       sprites.bind(GL_SHADER_STORAGE_BUFFER, BINDING_SPRITES);
-                       if (resources.local_media)
-                           resources.local_media.bind(GL_SHADER_STORAGE_BUFFER, BINDING_LOCAL_MEDIA);
-                       program.set("view_projection", matrix);
-                       program.set("has_global", has_global ? 1 : 0);
-                   },
-               .draw =
-                   [&shader, batches = std::move(batches)] {
-                       for (const ParticleBatch& batch : batches) dispatch(shader, batch);
-                   }});
+    frame.add(
+        {.name = "volumetrics/particles_simulate",
+         .program = shader,
+         .written = {&particles},
+         .lit = true,
+         .light_volumes = true,
+         .local_media = true,
+         .set =
+             [&sprites, matrix = view_projection(frame.inputs)](const PassContext&, const gl::Program& program) {
+                 sprites.bind(GL_SHADER_STORAGE_BUFFER, BINDING_SPRITES);
+                 program.set("view_projection", matrix);
+             },
+         .draw =
+             [&shader, batches = std::move(batches)] {
+                 for (const ParticleBatch& batch : batches) dispatch(shader, batch);
+             }});
     return particles;
 }
 
 /// Sums over the particles of each pixel, see the shaders; RGBA32F, for many are added.
 struct Sums {
-    TextureRef global, local, local_depth;
+    TextureRef global, local;
 };
 
 Sums add_draw(Frame& frame, const gl::Buffer& sprites, BufferRef particles, GLsizei count) {
@@ -96,17 +95,16 @@ Sums add_draw(Frame& frame, const gl::Buffer& sprites, BufferRef particles, GLsi
     Sums sums;
     if (global) sums.global = frame.create("volumetrics/particles_global", GL_RGBA32F);
     if (local) sums.local = frame.create("volumetrics/particles_local", GL_RGBA32F);
-    if (local) sums.local_depth = frame.create("volumetrics/particles_local_depth", GL_RGBA32F);
     const bool hides = is_depth_buffer(frame);
     frame.add({.name = "volumetrics/particles",
                .program = frame.program(draw_program, {{"GLOBAL_MEDIA", global}}),
                .sources = {{frame.depth}},
                .buffers = {particles},
-               .targets = {&sums.global, &sums.local, &sums.local_depth},
+               .targets = {&sums.global, &sums.local},
                .depth_test = hides ? frame.depth : TextureRef{},
                .state = {.depth_test = hides, .blend = gl::Blend::add},
                .set =
-                   [&sprites, targets = static_cast<int>(global) + 2 * static_cast<int>(local),
+                   [&sprites, targets = static_cast<int>(global) + static_cast<int>(local),
                     matrix = view_projection(frame.inputs),
                     near = frame.inputs.znear](const PassContext&, const gl::Program& shader) {
                        const glm::vec4 nothing{0};
@@ -130,9 +128,10 @@ Estimate add(Frame& frame) {
     const Sums sums = add_draw(frame, sprites, particles, count);
     frame.add({.name = "volumetrics/particles_resolve",
                .program = frame.program(resolve_program, {{"GLOBAL_MEDIA", frame.media.has_global}}),
-               .sources = {{frame.depth}, {sums.global}, {sums.local}, {sums.local_depth}},
+               .sources = {{frame.depth}, {noise_volume(frame), true}, {sums.global}, {sums.local}},
                .targets = {&estimate.scattering, &estimate.transmittance},
                .lit = true,
+               .local_media = true,
                .set = [reach = particle_reach(frame.settings)](const PassContext&, const gl::Program& shader) {
                    shader.set("reach", reach);
                }});
@@ -145,7 +144,8 @@ TechniqueDesc particles() {
     return {.name = "particles",
             .help = "Draws the media as drifting sprites, each lit once; local media soft by a sprite's radius.",
             .settings = "particle_",
-            .passes = {"volumetrics/particles_simulate", "volumetrics/particles", "volumetrics/particles_resolve"},
+            .passes = {"volumetrics/noise_volume", "volumetrics/particles_simulate", "volumetrics/particles",
+                       "volumetrics/particles_resolve"},
             .traits = {.sampling = Sampling::per_frame, .any_resolution = true},
             .add = add};
 }

@@ -1,5 +1,5 @@
 #include "frame/resources.h"
-#include "media/froxel_runs.h"
+#include "media/noise_volume.h"
 #include "reconstruction/reconstruction.h"
 #include "techniques/techniques.h"
 #include "volumetrics/frame.h"
@@ -15,7 +15,7 @@ bool is_valid(const Permutation& p) {
     if (local == 0 && lit && p.at("HEIGHT_MEDIA") > 1) return false;  // see local_media_axis
     if (p.at("PARTS") == 0) return true;
     if (p.at("LAMPS") == 1 || (p.at("LAMPS") == 0 && p.at("HAS_SUN") == 0)) return false;
-    return local != 2 || p.at("CHROMATIC") == 0;
+    return true;
 }
 
 const ProgramDesc program{.name = "volumetrics/march",
@@ -43,8 +43,6 @@ const char* reason_for_no_parts(const Frame& frame) {
     if (!frame.inputs.has_sun && !frame.inputs.has_lamps) return "no sun and no lamps";
     if (frame.inputs.has_lamps && frame.settings.light.lamp_integration == LampIntegration::center)
         return "lamp_integration is center: unshadowed light is noisy, too";
-    if (!frame.media.local.empty() && frame.media.chromatic)
-        return "local media in view and extinction is coloured";
     return nullptr;
 }
 
@@ -52,17 +50,8 @@ Part create_part(const Frame& frame, const std::string& name) {
     return {.light = frame.create("volumetrics/" + name), .share = frame.create("volumetrics/" + name + "_share")};
 }
 
-TextureRef add_runs(Frame& frame, const FroxelMedia& froxels, const char* whole) {
-    if (frame.media.local.empty()) whole = "no local medium in view";
-    if (!whole) return add_froxel_runs(frame, froxels);
-    frame.skip("volumetrics/froxel_runs", whole);
-    return {};
-}
-
 Estimate add(Frame& frame) {
     const char* whole = reason_for_no_parts(frame);
-    const FroxelMedia& froxels = froxel_media(frame);
-    const TextureRef runs = add_runs(frame, froxels, whole);
     Estimate estimate = frame.create_estimate();
     std::vector<TextureRef*> targets{&estimate.scattering, &estimate.transmittance};
     if (whole) {
@@ -76,14 +65,11 @@ Estimate add(Frame& frame) {
     frame.add(
         {.name = "volumetrics/march",
          .program = frame.program(program, {{"LOCAL_MEDIA", local_media_axis(frame)}, {"PARTS", whole == nullptr}}),
-         .sources = {{frame.depth},
-                     {froxels.scattering, true},
-                     {froxels.extinction, true},
-                     {froxels.emission ? froxels.emission : froxels.scattering, true},
-                     {runs}},
+         .sources = {{frame.depth}, {noise_volume(frame), true}},
          .targets = targets,
          .lit = true,
-         .light_volumes = true});
+         .light_volumes = true,
+         .local_media = true});
     return estimate;
 }
 
@@ -91,9 +77,9 @@ Estimate add(Frame& frame) {
 
 TechniqueDesc ray_march() {
     return {.name = "ray_march",
-            .help = "Marches each pixel's view ray; only visibility and local media are sampled.",
+            .help = "Marches each pixel's view ray; only visibility is sampled.",
             .settings = "step",
-            .passes = {"volumetrics/inject_media", "volumetrics/froxel_runs", "volumetrics/march"},
+            .passes = {"volumetrics/noise_volume", "volumetrics/march"},
             .traits = {.sampling = Sampling::per_pixel, .any_resolution = true},
             .add = add};
 }

@@ -87,19 +87,17 @@ Estimate add(Frame& frame) {
         .steps = (settings.reference.steps + steps_per_part - 1) / steps_per_part * steps_per_part,
         .steps_per_dispatch = media_steps_per_dispatch(frame.media, settings),
         .groups = glm::uvec2((frame.size + 7) / 8)};
-    const auto set = [estimate, reference, &resources = frame.resources, has_global = frame.media.has_global,
-                      lamp_samples = settings.reference.lamp_samples, light_steps = settings.reference.light_steps](
-                         const PassContext& context, const gl::Program&) {
+    const auto set = [estimate, reference, lamp_samples = settings.reference.lamp_samples,
+                      light_steps = settings.reference.light_steps](const PassContext& context,
+                                                                    const gl::Program&) {
         for (const TextureRef ref : {estimate.scattering, estimate.transmittance})
             glClearTexImage(context.texture(ref).id, 0, GL_RGBA, GL_FLOAT, nullptr);
-        if (resources.local_media) resources.local_media.bind(GL_SHADER_STORAGE_BUFFER, BINDING_LOCAL_MEDIA);
         reference.unfinished.bind(GL_SHADER_STORAGE_BUFFER, BINDING_UNFINISHED);
         for (const gl::Program* program : {&reference.media, reference.lamps}) {
             if (program == nullptr) continue;
             program->set("steps", reference.steps);
             program->set("light_steps", light_steps);
             program->set("lamp_samples", lamp_samples);
-            program->set("has_global", has_global ? 1 : 0);
         }
     };
     frame.add({.name = "volumetrics/reference",
@@ -107,6 +105,7 @@ Estimate add(Frame& frame) {
                .sources = {{frame.depth}},
                .images = {{&estimate.scattering}, {&estimate.transmittance}},
                .lit = true,
+               .local_media = true,
                .set = set,
                .draw = [reference] { reference.run(); }});
     return estimate;

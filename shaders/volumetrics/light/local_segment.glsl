@@ -1,0 +1,56 @@
+// Light of a part of a view ray in which there are local media: see ray_media.glsl.
+#ifndef VOLUMETRICS_LOCAL_SEGMENT_GLSL
+#define VOLUMETRICS_LOCAL_SEGMENT_GLSL
+
+#include "shaders/volumetrics/light/segment.glsl"
+#include "shaders/volumetrics/media/ray_media.glsl"
+
+#if HAS_SUN
+Extinction local_sun_front = Extinction(0.0);  // optical depth of the local media between the sun and the place reached
+
+Extinction local_sun_depth(Ray ray, float t) {
+    return to_extinction(local_sun_optical_depth(ray.origin + ray.direction * t));
+}
+
+// As sun_segment, through local media too: in two halves, for their shadow may lie anywhere in the part.
+SunSegment sun_part(Ray ray, float begin, float end, Optics optics, inout Extinction front) {
+    float middle = 0.5 * (begin + end);
+    Extinction half_depth = 0.5 * optics.depth;
+    Extinction at_middle = to_extinction(sun_optical_depth(ray.origin.y + ray.direction.y * middle, -sun_direction())) +
+                           local_sun_depth(ray, middle);
+    Extinction back = to_extinction(sun_optical_depth(ray.origin.y + ray.direction.y * end, -sun_direction()));
+    Extinction local_back = local_sun_depth(ray, end);
+    SunSegment sun = sun_between(half_depth, front + local_sun_front, at_middle, middle - begin);
+    SunSegment behind = sun_between(half_depth, at_middle, back + local_back, end - middle);
+    sun.effective_length += exp(-half_depth) * behind.effective_length;
+    sun.x += behind.x;
+    front = back;
+    local_sun_front = local_back;
+    return sun;
+}
+#endif
+
+// Local and global media over [begin, end] under ambient light and an unshadowed sun: behind the froxels there are neither lamps
+// nor shadows. sun_front: as of add_global. The chords were found before.
+void add_local_segments(Ray ray, float begin, float end, vec3 ambient, inout Extinction sun_front, inout March march) {
+#if HAS_SUN
+    local_sun_front = local_sun_depth(ray, begin);
+#endif
+    while (begin < end) {
+        float part_end = next_cut(begin, end);
+        float path_length = part_end - begin;
+        Medium m = global_medium(ray.origin.y + ray.direction.y * begin, ray.direction.y, path_length);
+        count_work(WORK_MEDIUM_SAMPLES, 1u);
+        add_local_media(ray, begin, part_end, m);
+        Optics optics = medium_optics(m, path_length);
+        vec3 gathered = (m.sigma_s * ambient + m.emission) * optics.effective_length;
+#if HAS_SUN
+        gathered += sun_scattering(ray, m, sun_part(ray, begin, part_end, optics, sun_front).effective_length);
+#endif
+        march.radiance += march.transmittance * gathered;
+        march.transmittance *= optics.transmittance;
+        begin = part_end;
+    }
+}
+
+#endif
