@@ -1,5 +1,5 @@
-// Light that local media scatter, against integration in double precision over the shapes of the ground truth: all shapes, thin
-// and dense, under a sun, point lamps beside and inside, and a spot.
+// Light that local media scatter, against integration in double precision over the shapes of the ground truth: all
+// shapes, thin and dense, under a sun, point lamps beside and inside, and a spot.
 
 #include <fmt/format.h>
 
@@ -78,9 +78,9 @@ class VolumetricsLitMedia : public GlTest {
         const glm::dvec3 travel = (point - position) / std::max(d, 1e-9);
         double value = light.intensity_radius.r / std::max(d * d, radius * radius);
         if (light.direction_type.w == LIGHT_SPOT) {
-            const double s = std::clamp(glm::dot(travel, glm::dvec3(light.direction_type)) * light.cone_shadow.x +
-                                            light.cone_shadow.y,
-                                        0.0, 1.0);
+            const double s = std::clamp(
+                glm::dot(travel, glm::dvec3(light.direction_type)) * light.cone_shadow.x + light.cone_shadow.y, 0.0,
+                1.0);
             value *= s * s;
         }
         return value * phase_hg(g, -glm::dot(travel, direction)) * std::exp(-optical_depth(position, point));
@@ -93,10 +93,10 @@ class VolumetricsLitMedia : public GlTest {
         constexpr int panels = 24;
         const double length = path->inside.end - path->inside.begin;
         // Denser where a lamp is nearest.
-        const double nearest =
-            host.lights.empty() ? path->inside.begin
-                                : std::clamp(glm::dot(glm::dvec3(host.lights[0].position_range) - eye, d),
-                                             path->inside.begin, path->inside.end);
+        const double nearest = host.lights.empty()
+                                   ? path->inside.begin
+                                   : std::clamp(glm::dot(glm::dvec3(host.lights[0].position_range) - eye, d),
+                                                path->inside.begin, path->inside.end);
         for (const double side : {path->inside.begin, path->inside.end})
             for (int i = 0; i < panels && length > 0; ++i) {
                 const auto at = [&](double u) { return nearest + (side - nearest) * u * u; };
@@ -153,17 +153,17 @@ class VolumetricsLitMedia : public GlTest {
                         settings.froxels.far = 32;
                         settings.froxels.distribution = volumetrics::DepthDistribution::linear;
                         const Error e = error(settings, truth);
-                        EXPECT_LE(e.mean, tolerance.mean)
-                            << technique << ' ' << name_of(shape) << " softness " << softness << " sigma_s " << sigma_s;
-                        EXPECT_LE(e.worst, tolerance.worst)
-                            << technique << ' ' << name_of(shape) << " softness " << softness << " sigma_s " << sigma_s;
+                        EXPECT_LE(e.mean, tolerance.mean) << technique << ' ' << name_of(shape) << " softness "
+                                                          << softness << " sigma_s " << sigma_s;
+                        EXPECT_LE(e.worst, tolerance.worst) << technique << ' ' << name_of(shape) << " softness "
+                                                            << softness << " sigma_s " << sigma_s;
                         worst[technique].mean = std::max(worst[technique].mean, e.mean);
                         worst[technique].worst = std::max(worst[technique].worst, e.worst);
                     }
                 }
         for (const auto& [technique, e] : worst)
-            std::cout << fmt::format("{}: mean {:.1f}%, a pixel {:.1f}% of the brightest\n", technique, 100 * e.mean,
-                                     100 * e.worst);
+            std::cout << fmt::format("{}: mean {:.1f}%, a pixel {:.1f}% of the brightest\n", technique,
+                                     100 * e.mean, 100 * e.worst);
     }
 
   private:
@@ -171,20 +171,32 @@ class VolumetricsLitMedia : public GlTest {
 };
 
 TEST_F(VolumetricsLitMedia, SunThroughTheMedium) {
-    sweep(Light::sun, {{"ray_march", {0.02, 0.05}}, {"froxel", {0.02, 0.05}}, {"billboards", {0.02, 0.05}},
-                       {"particles", {0.02, 0.05}}, {"reference", {0.02, 0.05}}});
+    sweep(Light::sun, {{"ray_march", {0.02, 0.05}},
+                       {"froxel", {0.02, 0.05}},
+                       {"billboards", {0.02, 0.05}},
+                       {"particles", {0.02, 0.05}},
+                       {"reference", {0.02, 0.05}}});
 }
 TEST_F(VolumetricsLitMedia, LampBesideTheMedium) {
-    sweep(Light::lamp_beside, {{"ray_march", {0.02, 0.05}}, {"froxel", {0.02, 0.05}}, {"billboards", {0.02, 0.05}},
-                               {"particles", {0.02, 0.05}}, {"reference", {0.02, 0.05}}});
+    sweep(Light::lamp_beside, {{"ray_march", {0.02, 0.05}},
+                               {"froxel", {0.02, 0.05}},
+                               {"billboards", {0.02, 0.05}},
+                               {"particles", {0.02, 0.05}},
+                               {"reference", {0.02, 0.05}}});
 }
 TEST_F(VolumetricsLitMedia, LampInTheMedium) {
-    sweep(Light::lamp_inside, {{"ray_march", {0.02, 0.05}}, {"froxel", {0.02, 0.05}}, {"billboards", {0.02, 0.05}},
-                               {"particles", {0.02, 0.05}}, {"reference", {0.02, 0.05}}});
+    sweep(Light::lamp_inside, {{"ray_march", {0.02, 0.05}},
+                               {"froxel", {0.02, 0.05}},
+                               {"billboards", {0.02, 0.05}},
+                               {"particles", {0.02, 0.05}},
+                               {"reference", {0.02, 0.05}}});
 }
 TEST_F(VolumetricsLitMedia, SpotIntoTheMedium) {
-    sweep(Light::spot, {{"ray_march", {0.02, 0.05}}, {"froxel", {0.02, 0.05}}, {"billboards", {0.02, 0.05}},
-                        {"particles", {0.02, 0.05}}, {"reference", {0.02, 0.05}}});
+    sweep(Light::spot, {{"ray_march", {0.02, 0.05}},
+                        {"froxel", {0.02, 0.05}},
+                        {"billboards", {0.02, 0.05}},
+                        {"particles", {0.02, 0.05}},
+                        {"reference", {0.02, 0.05}}});
 }
 
 }  // namespace

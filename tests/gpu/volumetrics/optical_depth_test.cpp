@@ -1,5 +1,5 @@
-// Optical depth of local media along view rays, against the ground truth on the CPU: all shapes, thin and thick, soft and hard,
-// from inside, from the rim and from far away, whatever the slices of the froxels.
+// Optical depth of local media along view rays, against the ground truth on the CPU: all shapes, thin and thick,
+// soft and hard, from inside, from the rim and from far away, whatever the slices of the froxels.
 
 #include <fmt/format.h>
 
@@ -37,15 +37,17 @@ LocalMedium local(const Medium& m) {
             .falloff = m.falloff};
 }
 
-/// A medium of an optical depth of 1 along the view axis, its rim `distance` in front of the eye, or the eye so far inside.
+/// A medium of an optical depth of 1 along the view axis, its rim `distance` in front of the eye, or the eye so far
+/// inside.
 Case make_case(Medium::Shape shape, float thickness, float distance, float softness_share, bool profile) {
     Medium m;
     m.shape = shape;
     m.half_extent = 0.5F * thickness * glm::vec3(shape == Medium::Shape::box ? 20 : 1.5F, 1.2F, 1);
     // As wide as the picture is there; but soft discs flatter than 4 to 1 are stated to be less exact.
     const float most = shape == Medium::Shape::ellipsoid && softness_share > 0 ? 2 * thickness : 1e9F;
-    m.half_extent = glm::max(
-        m.half_extent, glm::min(glm::vec3(std::abs(distance) * 0.3F, std::abs(distance) * 0.2F, 0), glm::vec3(most)));
+    m.half_extent =
+        glm::max(m.half_extent,
+                 glm::min(glm::vec3(std::abs(distance) * 0.3F, std::abs(distance) * 0.2F, 0), glm::vec3(most)));
     m.center = {0, 0, -distance - m.half_extent.z};
     m.softness = softness_share * m.half_extent.z;
     m.height_profile = profile;
@@ -125,13 +127,20 @@ class VolumetricsOpticalDepth : public GlTest {
                     worst = std::max(worst, error);
                 }
             }
-        std::cout << technique << ": worst error of an optical depth " << 100 * worst << "%, " << worst_name << '\n';
+        std::cout << technique << ": worst error of an optical depth " << 100 * worst << "%, " << worst_name
+                  << '\n';
     }
 };
 
-TEST_F(VolumetricsOpticalDepth, OfTheMarchIsThatOfTheShapeWhereverItIs) { expect_within("ray_march", 0.02, cases()); }
-TEST_F(VolumetricsOpticalDepth, OfFroxelsIsThatOfTheShapeWhereverItIs) { expect_within("froxel", 0.02, cases()); }
-TEST_F(VolumetricsOpticalDepth, OfParticlesIsThatOfTheShapeWhereverItIs) { expect_within("particles", 0.02, cases()); }
+TEST_F(VolumetricsOpticalDepth, OfTheMarchIsThatOfTheShapeWhereverItIs) {
+    expect_within("ray_march", 0.02, cases());
+}
+TEST_F(VolumetricsOpticalDepth, OfFroxelsIsThatOfTheShapeWhereverItIs) {
+    expect_within("froxel", 0.02, cases());
+}
+TEST_F(VolumetricsOpticalDepth, OfParticlesIsThatOfTheShapeWhereverItIs) {
+    expect_within("particles", 0.02, cases());
+}
 TEST_F(VolumetricsOpticalDepth, OfBillboardsIsThatOfTheShapeWhereverItIs) {
     expect_within("billboards", 0.02, cases());
 }

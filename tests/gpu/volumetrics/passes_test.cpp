@@ -35,11 +35,11 @@ TEST_F(VolumetricsPasses, WithoutMediumNothingIsAddedOrHeld) {
         const Frame frame = host.render(Settings{});
         EXPECT_THAT(frame.live_passes, IsEmpty());
         EXPECT_THAT(frame.skipped,
-                    UnorderedElementsAre(Key("volumetrics/noise_volume"),
-                                         Key("volumetrics/depth_downsample"), Key("volumetrics/march"),
-                                         Key("volumetrics/filter_horizontal"), Key("volumetrics/filter_vertical"),
-                                         Key("volumetrics/relight"), Key("volumetrics/upsample"),
-                                         Key("volumetrics/temporal"), Key("volumetrics/composite")));
+                    UnorderedElementsAre(Key("volumetrics/noise_volume"), Key("volumetrics/depth_downsample"),
+                                         Key("volumetrics/march"), Key("volumetrics/filter_horizontal"),
+                                         Key("volumetrics/filter_vertical"), Key("volumetrics/relight"),
+                                         Key("volumetrics/upsample"), Key("volumetrics/temporal"),
+                                         Key("volumetrics/composite")));
         EXPECT_EQ(frame.persistent_bytes, 0U);
     }
 }

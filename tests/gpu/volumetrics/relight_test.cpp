@@ -219,8 +219,8 @@ TEST_F(VolumetricsParts, EachMediumIsThatOfTheReference) {
     const float slice = 39.9F / 64;  // the froxels begin at the near plane, 0.1 m
     LocalMedium soft = box({0.5F, 0, 0}, {3, 3, 3}, 0.3F);
     soft.softness = 1;
-    // Root mean square over the mean of red; what the sun's volume leaves of its light, and four steps of its shadow in the
-    // air, is most of them.
+    // Root mean square over the mean of red; what the sun's volume leaves of its light, and four steps of its
+    // shadow in the air, is most of them.
     struct Case {
         std::vector<LocalMedium> media;
         double tolerance, with_attenuation;

@@ -147,13 +147,15 @@ TEST(VolumetricsMedia, TilesOfTheScreenListEveryMediumSeenInThem) {
         for (const LocalMedium& medium : inputs.local)
             for (int k = 0; k < 20; ++k) {
                 const glm::vec3 local = glm::vec3(unit(random), unit(random), unit(random)) * medium.half_extent;
-                const glm::vec4 clip = inputs.projection * inputs.view *
-                                       glm::vec4(medium.center + medium.rotation * local, 1);
+                const glm::vec4 clip =
+                    inputs.projection * inputs.view * glm::vec4(medium.center + medium.rotation * local, 1);
                 if (clip.w <= 0 || std::abs(clip.x) >= clip.w || std::abs(clip.y) >= clip.w) continue;
-                const auto index = static_cast<std::size_t>(
-                    std::ranges::find_if(media.local, [&](const shared::LocalMedium& m) {
-                        return m.sigma_a_shape.x == medium.sigma_a.x;
-                    }) - media.local.begin());
+                const auto index =
+                    static_cast<std::size_t>(std::ranges::find_if(media.local,
+                                                                  [&](const shared::LocalMedium& m) {
+                                                                      return m.sigma_a_shape.x == medium.sigma_a.x;
+                                                                  }) -
+                                             media.local.begin());
                 ASSERT_LT(index, media.local.size());
                 const glm::ivec2 tile((0.5F * glm::vec2(clip) / clip.w + 0.5F) *
                                       glm::vec2(SCREEN_MEDIA_X, SCREEN_MEDIA_Y));
