@@ -1,5 +1,6 @@
 #include "engine/render/passes/shadow_casters.h"
 
+#include <algorithm>
 #include <bit>
 
 namespace tyndall {
@@ -21,6 +22,18 @@ void add_bounds(ShadowKey& key, const Aabb& box) {
 
 void ShadowKey::add(std::span<const float> values) {
     for (const float v : values) add(std::uint64_t{std::bit_cast<std::uint32_t>(v)});
+}
+
+Aabb static_bounds(std::span<const Instance> instances, const Aabb& all) {
+    constexpr float backdrop = 300;  // m, the longest edge of what is not
+    Aabb bounds;
+    for (const Instance& instance : instances) {
+        const glm::vec3 size = instance.bounds.max - instance.bounds.min;
+        if (instance.dynamic || std::max({size.x, size.y, size.z}) > backdrop) continue;
+        bounds.add(instance.bounds.min);
+        bounds.add(instance.bounds.max);
+    }
+    return bounds.empty() ? all : bounds;
 }
 
 ShadowCasters::ShadowCasters(const Scene& scene, const GpuScene& gpu) : scene_(scene), instances_(gpu.instances()) {
@@ -59,8 +72,7 @@ bool ShadowCasters::moving_within(glm::vec3 center, float radius) const {
 }
 
 gl::DrawState ShadowDepth::state(bool depth_clamp) {
-    return {
-        .depth_test = true, .depth_write = true, .depth_clamp = depth_clamp, .slope_bias = -1, .constant_bias = -2};
+    return {.depth_test = true, .depth_write = true, .depth_clamp = depth_clamp, .constant_bias = -2};
 }
 
 void ShadowDepth::draw(const GpuScene& gpu, const DrawList& list, int view, const glm::mat4& world_to_clip) const {
