@@ -8,7 +8,9 @@
 // at an edge are compared one by one. There a surface would shadow itself, for it changes its depth from texel to texel:
 // so the point is moved along its normal (the geometric one is best). A filter that reads up to r texels away sees a
 // depth change of r t tan(a) for texels of size t and an angle a between the normal and the map's axis, more on the
-// diagonal: a shift of h along the normal gains h / cos(a), so h = 1.5 r t sin(a) is enough.
+// diagonal: a shift of h along the normal gains h / cos(a), so h = 1.5 r t sin(a) is enough; a quarter of it is done by
+// the bias of the casters' fronts. Where two lit planes meet, texels of both are taken for one plane before them: hence
+// the constant part.
 //
 // Texels through which light passes behind the surface, because it ends there, say nothing about it: they do not count,
 // so that what is outside of a room does not light the foot of its walls. Of the air that is true where beside a caster

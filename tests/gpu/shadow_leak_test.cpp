@@ -40,12 +40,12 @@ Leak leak(const std::vector<float>& values) {
     return found;
 }
 
-/// Planes let light through where they meet, within a texel: there the filter sees what is outside.
+/// Where thin walls meet, within a texel, the filter sees what is outside.
 void expect_dark(const Leak& walls, const Leak& air, float thickness) {
-    EXPECT_LT(walls.mean, thickness > 0 ? 1e-5 : 2e-3) << thickness;
-    EXPECT_LT(air.mean, 1e-4) << thickness;
-    if (thickness > 0) {
-        EXPECT_EQ(air.most, 0) << thickness;
+    EXPECT_LT(walls.mean, thickness > 0 ? 1e-4 : 2e-3) << thickness;
+    EXPECT_LT(air.mean, thickness > 0 ? 2e-5 : 1e-4) << thickness;
+    if (thickness >= 0.1f) {
+        EXPECT_EQ(std::max(walls.most, air.most), 0) << thickness;
     }
 }
 

@@ -198,19 +198,18 @@ void ShadowAtlasPass::draw(const PassContext& pass, const GpuScene& gpu) {
     draws_.build(gpu, frusta, DrawList::Filter::shadow_casters);
 
     pass.bind_framebuffer();
-    gl::apply(ShadowDepth::state(false));
     glClearDepthf(0);
-    glEnable(GL_SCISSOR_TEST);  // clears reach their own tile only
     for (std::size_t i = 0; i < redraws_.size(); ++i) {
         const Redraw& redraw = redraws_[i];
         Tile& tile = lights_[redraw.light].tiles[redraw.tile];
+        gl::apply(ShadowDepth::state());
+        glEnable(GL_SCISSOR_TEST);  // clears reach their own tile only
         glViewport(tile.place.origin.x, tile.place.origin.y, tile.place.size, tile.place.size);
         glScissor(tile.place.origin.x, tile.place.origin.y, tile.place.size, tile.place.size);
         glClear(GL_DEPTH_BUFFER_BIT);
-        depth_.draw(gpu, draws_, static_cast<int>(i), redraw.data.world_to_clip);
+        depth_.draw(gpu, draws_, static_cast<int>(i), redraw.data.world_to_clip, false);
         tile.drawn_key = redraw.key;
     }
-    glDisable(GL_SCISSOR_TEST);
     tiles_drawn_ = static_cast<int>(redraws_.size());
 }
 

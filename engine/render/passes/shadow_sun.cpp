@@ -85,12 +85,12 @@ TextureRef ShadowSunPass::add_map(FrameContext& context, const ShadowCasters& ca
         [&](PassBuilder& pass) { texture = pass.attach_depth(texture, 0, is_static ? -1 : index); },
         [this, &map, volume, is_static, key, &gpu = context.gpu](const PassContext& pass) {
             pass.bind_framebuffer();
-            gl::apply(ShadowDepth::state(true));
+            gl::apply(ShadowDepth::state());
             glClearDepthf(0);
             glClear(GL_DEPTH_BUFFER_BIT);
             map.draws.build(gpu, volume,
                             is_static ? DrawList::Filter::static_shadow_casters : DrawList::Filter::shadow_casters);
-            depth_.draw(gpu, map.draws, 0, world_to_clip(map.fit));
+            depth_.draw(gpu, map.draws, 0, world_to_clip(map.fit), true);
             map.drawn_key = key.value();
         });
     return texture;
