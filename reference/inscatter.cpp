@@ -20,7 +20,7 @@ double largest(const dvec3& v) {
 struct Source {
     enum class Kind { glow, sun, lamp_inside, lamp_before, lamp_behind };
     Kind kind;
-    int lamp = -1;  ///< index of a LampPath
+    int light = -1;  ///< index of a sun or a LampPath
 };
 
 }  // namespace
@@ -47,10 +47,9 @@ struct InScattering::RaySum {
         const MediumPoint m = ray.at(t);
         return glm::exp(-ray.depth(t)) * (m.emission + m.sigma_s * in.lighting_.ambient);
     }
-    [[nodiscard]] dvec3 sunlight(double t) const {
+    [[nodiscard]] dvec3 sunlight(const Sun& sun, double t) const {
         const MediumPoint m = ray.at(t);
         if (m.sigma_s == dvec3(0)) return dvec3(0);
-        const Sun& sun = *in.lighting_.sun;
         return glm::exp(-ray.depth(t)) * sun.illuminance * scattered(m, glm::dot(sun.to_sun, direction)) *
                in.towards_sun(origin + t * direction, sun.to_sun, in.averaged());
     }
@@ -72,8 +71,9 @@ struct InScattering::RaySum {
     [[nodiscard]] dvec3 evaluate(int source, double x) const {
         const Source& s = sources[static_cast<std::size_t>(source)];
         if (s.kind == Source::Kind::glow) return glow(x);
-        if (s.kind == Source::Kind::sun) return sunlight(x);
-        const LampPath& path = lamps[static_cast<std::size_t>(s.lamp)];
+        const auto index = static_cast<std::size_t>(s.light);
+        if (s.kind == Source::Kind::sun) return sunlight(in.lighting_.suns[index], x);
+        const LampPath& path = lamps[index];
         if (s.kind == Source::Kind::lamp_inside) return lamplight(path, x - path.nearest, 1);
         const double u = path.from_angle(x);
         return lamplight(path, s.kind == Source::Kind::lamp_before ? -u : u, path.h * path.h + u * u);
@@ -103,12 +103,12 @@ struct InScattering::RaySum {
         const std::vector<double> points = split({0, ray.end()});
         for (std::size_t i = 0; i + 1 < points.size(); ++i) add_panel(source, points[i], points[i + 1]);
     }
-    void add_sun() {
-        const Sun& sun = *in.lighting_.sun;
+    void add_sun(int index) {
+        const Sun& sun = in.lighting_.suns[static_cast<std::size_t>(index)];
         std::vector<Interval> lit{{0, ray.end()}};
         if (in.settings_.shadows && sun.shadow)
             lit = in.geometry_.lit_by_sun(origin, direction, 0, ray.end(), sun.to_sun);
-        const int source = add_source({Source::Kind::sun});
+        const int source = add_source({Source::Kind::sun, index});
         for (const Interval& part : lit) {
             const std::vector<double> points = split(part);
             for (std::size_t i = 0; i + 1 < points.size(); ++i) add_panel(source, points[i], points[i + 1]);
@@ -191,7 +191,7 @@ InScattering::Result InScattering::along(const MediaRay& ray, dvec3 origin, dvec
     sum.add_glow();
     double left_out = 0;
     if (ray.greatest_sigma_s() != dvec3(0)) {
-        if (lighting_.sun) sum.add_sun();
+        for (std::size_t i = 0; i < lighting_.suns.size(); ++i) sum.add_sun(static_cast<int>(i));
         left_out = sum.add_lamps();
     }
     const double tolerance = budget_quadrature * settings_.tolerance;

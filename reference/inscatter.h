@@ -8,7 +8,7 @@ namespace tyndall::reference {
 
 /// What shines into the media and onto the surfaces.
 struct Lighting {
-    std::optional<Sun> sun;
+    std::vector<Sun> suns;
     std::vector<Lamp> lamps;
     dvec3 ambient{0};  ///< mean radiance of the sky over the sphere, cd/m²
 };

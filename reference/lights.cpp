@@ -28,11 +28,12 @@ double square(double x) {
 
 }  // namespace
 
-std::optional<Sun> scene_sun(const Scene& scene) {
-    const auto index = scene.sun();
-    if (!index || !shines(scene.lights[*index])) return {};
-    const Light& light = scene.lights[*index];
-    return Sun{-axis_of(world_of(scene, light)), dvec3(light.intensity), light.shadow};
+std::vector<Sun> scene_suns(const Scene& scene) {
+    std::vector<Sun> suns;
+    for (const Light& light : scene.lights)
+        if (light.type == LightType::sun && shines(light))
+            suns.push_back({-axis_of(world_of(scene, light)), dvec3(light.intensity), light.shadow});
+    return suns;
 }
 
 std::vector<Lamp> scene_lamps(const Scene& scene) {

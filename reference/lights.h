@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "engine/scene/scene.h"
@@ -13,7 +12,8 @@ struct Sun {
     dvec3 illuminance;  ///< lux
     bool shadow;
 };
-[[nodiscard]] std::optional<Sun> scene_sun(const Scene& scene);
+/// Those that shine.
+[[nodiscard]] std::vector<Sun> scene_suns(const Scene& scene);
 
 /// A point or spot lamp of KHR_lights_punctual, with a radius within which it gets no brighter.
 struct Lamp {

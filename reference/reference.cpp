@@ -23,7 +23,7 @@ struct Reference::Impl {
           geometry(scene, settings.shadows),
           media(scene.media),
           sky(scene, settings.ambient),
-          lighting{scene_sun(scene), scene_lamps(scene), sky.mean_radiance()},
+          lighting{scene_suns(scene), scene_lamps(scene), sky.mean_radiance()},
           scattering(geometry, media, lighting, settings) {}
 
     [[nodiscard]] dvec3 surface_radiance(const Geometry::Hit& hit, dvec3 origin, dvec3 direction) const;
@@ -52,8 +52,7 @@ dvec3 Reference::Impl::surface_radiance(const Geometry::Hit& hit, dvec3 origin, 
     const Surface surface = surface_at(scene, geometry, hit, origin, direction);
     const dvec3 to_eye = -direction;
     dvec3 radiance = surface.emissive;
-    if (lighting.sun) {
-        const Sun& sun = *lighting.sun;
+    for (const Sun& sun : lighting.suns) {
         const dvec3 share = reflected(surface, to_eye, sun.to_sun);
         if (share != dvec3(0) && lit(surface, sun.shadow, sun.to_sun, std::numeric_limits<double>::infinity()))
             radiance += sun.illuminance * share *
@@ -70,7 +69,7 @@ dvec3 Reference::Impl::surface_radiance(const Geometry::Hit& hit, dvec3 origin, 
             radiance += illuminance * share *
                         scattering.towards_lamp(surface.position, to_lamp, distance, scattering.depth_tolerance());
     }
-    if (settings.ambient > 0 && !sky.dark()) radiance += sky.reflected(surface, to_eye);
+    if (settings.ambient > 0) radiance += sky.reflected(surface, to_eye);
     return radiance;
 }
 

@@ -38,22 +38,18 @@ std::array<LobeSample, 256> lobe_samples() {
 
 Sky::Sky(const Scene& scene, double factor) : factor_(factor) {
     const auto index = scene.sun();
-    if (!index || scene.lights[*index].node < 0) return;
-    const Light& sun = scene.lights[*index];
-    to_sun_ = glm::normalize(dvec3(scene.nodes[static_cast<std::size_t>(sun.node)].world[2]));
-    illuminance_ = sun.intensity;
-    if (dark() || factor == 0) return;  // the table is slow to fill
+    if (index) {
+        const Light& sun = scene.lights[*index];
+        to_sun_ = glm::normalize(dvec3(scene.nodes[static_cast<std::size_t>(sun.node)].world[2]));
+        illuminance_ = sun.intensity;
+    }
+    if (factor == 0) return;  // the table is slow to fill
     const glm::vec3 to_sun(to_sun_);
     const auto lux = static_cast<float>(glm::dot(illuminance_, luminance));
     table_ = SkyTable([&](dvec3 d) { return dvec3(glsl::sky_radiance(glm::vec3(d), to_sun, lux)); });
 }
 
-bool Sky::dark() const {
-    return illuminance_ == dvec3(0);
-}
-
 dvec3 Sky::background(dvec3 unit_direction) const {
-    if (dark()) return dvec3(0);
     const glm::vec3 d(unit_direction), to_sun(to_sun_);
     const auto lux = static_cast<float>(glm::dot(illuminance_, luminance));
     const glm::vec3 radiance = glsl::sky_clouded(glsl::sky_radiance(d, to_sun, lux), d, to_sun, lux) +

@@ -28,9 +28,9 @@ struct Surface {
 /// The model of the sky is part of the scene's description and is the shaders'; what is integrated over it is not.
 class Sky {
   public:
-    /// Black where the scene has no sun. `factor` multiplies what it sends to media and surfaces, not what is seen.
+    /// That of the brightest sun; night without one. `factor` multiplies what it sends to media and surfaces, not
+    /// what is seen.
     Sky(const Scene& scene, double factor);
-    [[nodiscard]] bool dark() const;
     [[nodiscard]] dvec3 background(dvec3 unit_direction) const;  ///< seen behind the scene, cd/m²
     [[nodiscard]] dvec3 mean_radiance() const;  ///< over the sphere, without the disc, times factor
     /// What a surface reflects of it, without occlusion by the scene: the integral of sky, BRDF and cosine times

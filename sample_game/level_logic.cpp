@@ -18,10 +18,10 @@ Medium clear_air(float scale) {
 
 }  // namespace
 
-LevelLogic::LevelLogic(const Scene& scene) : media_(scene.media), exposure_(scene.exposure_ev100) {
-    const auto sun = scene.sun();
-    if (sun) {
-        sun_ = scene.lights[*sun];
+LevelLogic::LevelLogic(const Scene& scene)
+    : media_(scene.media), sun_index_(scene.sun()), exposure_(scene.exposure_ev100) {
+    if (sun_index_) {
+        sun_ = scene.lights[*sun_index_];
         if (sun_.node >= 0) sun_rotation_ = scene.nodes[sun_.node].rotation;
         day_times_ = {{"as made", 0, 0, glm::vec3(1), 0, exposure_},
                       {"dawn", 6, 150, {1.0f, 0.62f, 0.42f}, 400, exposure_ - 0.5f},
@@ -41,9 +41,8 @@ LevelLogic::LevelLogic(const Scene& scene) : media_(scene.media), exposure_(scen
 
 void LevelLogic::set_day_time(Scene& scene, std::size_t index) {
     day_time_ = index;
-    const auto sun = scene.sun();
-    if (!sun || sun_.node < 0) return;
-    Light& light = scene.lights[*sun];
+    if (!sun_index_) return;
+    Light& light = scene.lights[*sun_index_];
     Node& node = scene.nodes[light.node];
     const DayTime& t = day_times_[index];
     scene.exposure_ev100 = t.exposure_ev100;

@@ -40,6 +40,7 @@ class LevelLogic {
     std::vector<DayTime> day_times_;
     std::vector<FogPreset> fogs_;
     std::vector<Medium> media_;
+    std::optional<std::size_t> sun_index_;
     Light sun_;
     glm::quat sun_rotation_{1, 0, 0, 0};
     float exposure_ = 0;

@@ -104,14 +104,14 @@ void DrawList::build(const GpuScene& scene, std::span<const Frustum> frusta, Fil
     visible_.assign(std::span<const std::uint32_t>(visible), "visible instances");
 }
 
-void DrawList::draw(const GpuScene& scene, const std::function<void(int)>& bind_material, int view) const {
+void DrawList::draw(const GpuScene& scene, const std::function<bool(int)>& bind_material, int view) const {
     const ViewBatches& batches = views_.at(static_cast<std::size_t>(view));
     if (batches.batches.empty()) return;
     scene.bind();
     visible_.bind(GL_SHADER_STORAGE_BUFFER, BINDING_VISIBLE_INSTANCES);
     glBindBuffer(GL_DRAW_INDIRECT_BUFFER, commands_.id());
     for (const Batch& batch : batches.batches) {
-        bind_material(batch.material);
+        if (!bind_material(batch.material)) continue;
         const std::uintptr_t offset = batch.first_command * sizeof(DrawElementsIndirectCommand);
         glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, reinterpret_cast<const void*>(offset),
                                     static_cast<GLsizei>(batch.command_count), 0);

@@ -20,8 +20,8 @@ class DrawList {
     /// Several views at once (shadow tiles): view i's commands are drawn by draw(i, …).
     void build(const GpuScene& scene, std::span<const Frustum> frusta, Filter filter);
 
-    /// Calls `bind_material(material index)` before each material's multi-draw.
-    void draw(const GpuScene& scene, const std::function<void(int)>& bind_material, int view = 0) const;
+    /// Calls `bind_material(material index)` before each material's multi-draw; false leaves it out.
+    void draw(const GpuScene& scene, const std::function<bool(int)>& bind_material, int view = 0) const;
     [[nodiscard]] std::size_t instance_count(int view = 0) const;
     [[nodiscard]] std::size_t triangle_count(int view = 0) const;
     [[nodiscard]] std::size_t draw_call_count(int view = 0) const;

@@ -10,8 +10,7 @@ bool is_dark(glm::vec3 v) {
 }
 
 void add_lights(FrameFacts& facts, const Scene& scene, const Frustum& frustum) {
-    const auto sun = scene.sun();
-    facts.has_sun = sun && !is_dark(scene.lights[*sun].intensity);
+    facts.has_sun = scene.sun().has_value();
     facts.lamps = find_lamps(scene, frustum);
     facts.local_lights_in_view = static_cast<int>(std::ranges::count(facts.lamps, true, &Lamp::in_view));
 }

@@ -8,10 +8,10 @@ namespace tyndall {
 /// else.
 struct FrameFacts {
     bool has_sun = false;      ///< a sun with non-zero illuminance
-    bool has_ambient = false;  ///< the sky: always; whoever turns ambient light off clears it
+    bool has_ambient = false;  ///< the sky: always, for nights have one; whoever turns ambient light off clears it
     bool has_global_medium = false;
     bool has_local_media = false;  ///< bounded media whose bounds are in view
-    std::vector<Lamp> lamps;       ///< all that shine
+    std::vector<Lamp> lamps;       ///< all that shine, further suns first
     int local_lights_in_view = 0;  ///< of them
     [[nodiscard]] bool has_medium() const { return has_global_medium || has_local_media; }
 };

@@ -14,7 +14,11 @@ TYNDALL_GLSL_END
 namespace tyndall {
 
 shared::GpuLight gpu_light(const Light& light, const glm::mat4& world, int first_tile) {
-    TYNDALL_CHECK(light.type != LightType::sun);
+    if (light.type == LightType::sun)
+        return {.position_range = {sun_position(world), sun_range},
+                .intensity_radius = {light.intensity * (sun_distance * sun_distance), light.radius},
+                .direction_type = {-glm::normalize(glm::vec3(world[2])), static_cast<float>(LIGHT_SUN)},
+                .cone_shadow = {0, 1, static_cast<float>(first_tile), 0}};
     TYNDALL_CHECK_LT(0.0f, light.range);
     const bool spot = light.type == LightType::spot;
     const glm::vec2 cone =

@@ -11,7 +11,7 @@
 
 namespace tyndall {
 
-/// A point or spot lamp as shaders read it. `world` is its node's; the lamp shines along -Z. `first_tile` is its
+/// A lamp or further sun as shaders read it. `world` is its node's; the lamp shines along -Z. `first_tile` is its
 /// first tile in the shadow atlas, -1: no shadow.
 [[nodiscard]] shared::GpuLight gpu_light(const Light& light, const glm::mat4& world, int first_tile);
 

@@ -225,7 +225,7 @@ void Renderer::render(const Scene& scene, const View& view, glm::ivec2 size, con
     r.scene->update(scene);
     r.layer = options.layer;
     r.facts = compute_facts(scene, view);
-    r.facts.has_ambient = r.facts.has_sun && options.render.ambient > 0;
+    r.facts.has_ambient = options.render.ambient > 0;
     r.lights.update(scene, r.facts.lamps);
     r.passes = PassList();
 

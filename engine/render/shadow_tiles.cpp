@@ -6,7 +6,8 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <numeric>
 
-#include "engine/scene/view.h"
+#include "engine/render/lamps.h"
+#include "engine/render/sun_cascades.h"
 #include "shaders/shared/shadows.h"
 
 namespace tyndall {
@@ -32,6 +33,11 @@ glm::mat4 reversed_projection(float tan_half, float near, float far) {
     return m;
 }
 
+glm::vec4 rect_of(const AtlasTile& place, int atlas_size) {
+    const auto atlas = static_cast<float>(atlas_size);
+    return {glm::vec2(place.origin) / atlas, static_cast<float>(place.size) / atlas, 0.5f / atlas};
+}
+
 }  // namespace
 
 int shadow_tile_count(LightType type) {
@@ -39,9 +45,8 @@ int shadow_tile_count(LightType type) {
         case LightType::point:
             return 6;
         case LightType::spot:
-            return 1;
         case LightType::sun:
-            return 0;
+            return 1;
     }
     return 0;
 }
@@ -105,11 +110,20 @@ shared::ShadowTile make_shadow_tile(const Light& light, const glm::mat4& light_t
     const float near = std::max(light.radius, nearest_caster);
     const float far = std::max(light.range, 2 * near);
     const glm::vec3 up = std::abs(axis.y) < 0.99f ? glm::vec3(0, 1, 0) : glm::vec3(0, 0, 1);
-    const auto atlas = static_cast<float>(atlas_size);
     shared::ShadowTile tile;
     tile.world_to_clip = reversed_projection(tan_half, near, far) * world_to_camera(position, axis, up);
-    tile.rect = glm::vec4(glm::vec2(place.origin) / atlas, side / atlas, 0.5f / atlas);
+    tile.rect = rect_of(place, atlas_size);
     tile.depth = glm::vec4(near, far, 2 * tan_half / side, 1);
+    return tile;
+}
+
+shared::ShadowTile make_sun_tile(const Aabb& bounds, const glm::mat4& light_to_world, const AtlasTile& place,
+                                 int atlas_size) {
+    const SunMap map = fit_static(bounds, -glm::vec3(light_to_world[2]), place.size);
+    shared::ShadowTile tile;
+    tile.world_to_clip = sun_distance * world_to_clip(map);
+    tile.rect = rect_of(place, atlas_size);
+    tile.depth = glm::vec4(0, sun_distance, map.texel / sun_distance, 1);
     return tile;
 }
 

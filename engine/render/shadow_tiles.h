@@ -12,7 +12,7 @@ namespace tyndall {
 
 inline constexpr int smallest_shadow_tile = 16;  ///< px
 
-/// Tiles a light's shadow takes: 6 faces of a cube for a point light, 1 for a spot, 0 for a sun.
+/// Tiles a light's shadow takes: 6 faces of a cube for a point light, 1 for a spot or a further sun.
 [[nodiscard]] int shadow_tile_count(LightType type);
 
 /// log2 of the tile side at which the tile's texels look as large as one another from everywhere: `size_max` where
@@ -37,5 +37,9 @@ struct TileDemand {
 /// shadow is used outside.
 [[nodiscard]] shared::ShadowTile make_shadow_tile(const Light& light, const glm::mat4& light_to_world, int face,
                                                   const AtlasTile& place, int atlas_size);
+
+/// The map of a further sun: `bounds`, and all that lies between them and the sun.
+[[nodiscard]] shared::ShadowTile make_sun_tile(const Aabb& bounds, const glm::mat4& light_to_world,
+                                               const AtlasTile& place, int atlas_size);
 
 }  // namespace tyndall

@@ -35,6 +35,20 @@ void load_scene_extras(const GltfFile& file, Scene& scene) {
     scene.media = parse_media(media, scene.path.string() + ": extras");
 }
 
+/// Lamps without a range end where a white surface that faces them would be a quarter of a step of 8 bits brighter
+/// than black in the picture, at 0.01 lx at the latest. The window that ends them nowhere takes more than that
+/// much.
+void end_lamps(Scene& scene) {
+    constexpr float step = 1 / (255 * 12.92f);                   // sRGB is linear there
+    const float white = 1.2f * std::exp2(scene.exposure_ev100);  // cd/m²
+    const float least = std::clamp(0.25f * step * std::numbers::pi_v<float> * white, 1e-12f, 0.01f);
+    for (Light& light : scene.lights) {
+        if (light.type == LightType::sun || light.range > 0) continue;
+        const float brightest = std::max({light.intensity.r, light.intensity.g, light.intensity.b});
+        light.range = std::max(std::sqrt(brightest / least), light.radius);
+    }
+}
+
 /// Nodes whose transform mirrors get meshes with turned faces, made once for each mesh.
 void turn_mirrored_meshes(Scene& scene) {
     std::map<int, int> turned;
@@ -80,6 +94,7 @@ Scene load_gltf(const std::filesystem::path& path) {
         const auto nodes = gltf::load_nodes(file, meshes, scene);
         gltf::load_animations(file, nodes, scene);
         load_scene_extras(file, scene);
+        end_lamps(scene);
         if (scene.materials.empty()) scene.materials.emplace_back().name = "default";
         place_in_world(file, scene);
         return scene;

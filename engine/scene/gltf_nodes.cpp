@@ -9,8 +9,7 @@
 namespace tyndall::gltf {
 namespace {
 
-constexpr float brightest_light = 1e15f;       // cd or lx; so that products with it stay finite
-constexpr float faintest_illuminance = 0.01f;  // lx; where a lamp without a range ends
+constexpr float brightest_light = 1e15f;  // cd or lx; so that products with it stay finite
 
 /// The parent of each node; checks that the nodes are trees.
 std::vector<int> find_parents(const GltfFile& file) {
@@ -111,7 +110,6 @@ int load_light(const GltfFile& file, int index, int id, Scene& scene, const std:
     if (extra.contains("radius")) light.radius = file.number(extra["radius"], what + ": extras.radius", 1e-6);
     if (extra.contains("shadow")) light.shadow = file.boolean(extra["shadow"], what + ": extras.shadow");
     light.range = file.number(from.range, what + ": range", 0);
-    if (light.range == 0) light.range = std::max(std::sqrt(brightest / faintest_illuminance), light.radius);
     scene.lights.push_back(light);
     return static_cast<int>(scene.lights.size()) - 1;
 }

@@ -42,10 +42,20 @@ const Node* Scene::find_node(const std::string& name) const {
     return find_named(nodes, name);
 }
 
+std::vector<std::size_t> Scene::suns() const {
+    const auto luminance = [this](std::size_t i) {
+        return glm::dot(lights[i].intensity, glm::vec3(0.2126f, 0.7152f, 0.0722f));
+    };
+    std::vector<std::size_t> found;
+    for (std::size_t i = 0; i < lights.size(); ++i)
+        if (lights[i].type == LightType::sun && lights[i].node >= 0 && luminance(i) > 0) found.push_back(i);
+    std::ranges::stable_sort(found, std::greater(), luminance);
+    return found;
+}
+
 std::optional<std::size_t> Scene::sun() const {
-    const auto found = std::ranges::find(lights, LightType::sun, &Light::type);
-    if (found == lights.end()) return std::nullopt;
-    return static_cast<std::size_t>(found - lights.begin());
+    const std::vector<std::size_t> all = suns();
+    return all.empty() ? std::nullopt : std::optional(all.front());
 }
 
 void add_missing_sun(Scene& scene) {

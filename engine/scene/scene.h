@@ -77,8 +77,8 @@ struct Light {
     std::string name;
     LightType type = LightType::point;
     glm::vec3 intensity{1};  ///< colour * intensity: lux for the sun, candela for point and spot
-    float range =
-        0;  ///< m; 0 in a file means infinite: the loader replaces it by the distance where E falls to 0.01 lx
+    /// m; 0 in a file means infinite: the loader replaces it by the distance where the lamp changes no pixel.
+    float range = 0;
     float inner_cone = 0, outer_cone = 0.785398f;  ///< half angles, rad
     float radius = 0.01f;                          ///< m; extras.radius: d² is clamped at its square
     bool shadow = true;                            ///< extras.shadow
@@ -130,7 +130,10 @@ struct Scene {
     [[nodiscard]] const Camera* find_camera(const std::string& name) const;
     [[nodiscard]] const Animation* find_animation(const std::string& name) const;
     [[nodiscard]] const Node* find_node(const std::string& name) const;
-    [[nodiscard]] std::optional<std::size_t> sun() const;  ///< index of the first sun
+    /// Indices of the suns that shine, by luminance, the brightest first; of equals the earlier one.
+    [[nodiscard]] std::vector<std::size_t> suns() const;
+    /// The brightest: the one whose sky is seen and that has cascades. The others are lamps, see find_lamps().
+    [[nodiscard]] std::optional<std::size_t> sun() const;
 };
 
 /// Evaluates every animation except `except` (looped over its duration) at `time` and updates world transforms.

@@ -1,12 +1,20 @@
 // Visibility of the sun and of lamps from the engine's shadow maps: 0 dark, 1 lit. World space, metres.
 //
 // All depth is reversed, greater is nearer to the light: a map holds the casters nearest to the light, and a point is
-// lit where its own depth >= the map's (compare samplers with GL_GEQUAL, bound by ShadowSunPass and ShadowAtlasPass).
+// lit where its own depth >= the map's.
 //
-// `normal` is the unit normal of the surface; the geometric one is best. Planes are free of acne because a
-// filter that reads up to r texels away sees a depth change of r t tan(a) for texels of size t and an angle a
-// between the normal and the map's axis: a shift of h along the normal gains h / cos(a), so h = r t sin(a) is
-// enough. Half of it is done by the caster's slope-scaled bias.
+// Four neighbouring texels that lie in a plane are compared as that plane, at the point itself: so a plane neither shadows
+// itself nor lets light through, however steep it is, however thin the wall and however near behind it the point. Texels
+// at an edge are compared one by one. There a surface would shadow itself, for it changes its depth from texel to texel:
+// so the point is moved along its normal (the geometric one is best). A filter that reads up to r texels away sees a
+// depth change of r t tan(a) for texels of size t and an angle a between the normal and the map's axis, more on the
+// diagonal: a shift of h along the normal gains h / cos(a), so h = 1.5 r t sin(a) is enough; a quarter of it is done by
+// the bias of the casters' fronts. Where two lit planes meet, texels of both are taken for one plane before them: hence
+// the constant part.
+//
+// Texels through which light passes behind the surface, because it ends there, say nothing about it: they do not count,
+// so that what is outside of a room does not light the foot of its walls. Of the air that is true where beside a caster
+// the map is empty.
 //
 // SHADOWS 0: everything is lit, no sampler is declared.
 #ifndef ENGINE_SHADOW_LOOKUP_GLSL
@@ -21,17 +29,60 @@
 #endif
 
 #if SHADOWS
-layout(binding = UNIT_SUN_CASCADES) uniform sampler2DArrayShadow sun_cascade_maps;
-layout(binding = UNIT_SUN_STATIC) uniform sampler2DShadow sun_static_map;
-layout(binding = UNIT_SHADOW_ATLAS) uniform sampler2DShadow shadow_atlas;
+layout(binding = UNIT_SUN_CASCADES) uniform sampler2DArray sun_cascade_maps;
+layout(binding = UNIT_SUN_STATIC) uniform sampler2D sun_static_map;
+layout(binding = UNIT_SHADOW_ATLAS) uniform sampler2D shadow_atlas;
 layout(std430, binding = BINDING_SHADOW_TILES) readonly buffer ShadowTileBuffer { ShadowTile shadow_tiles[]; };
 
-// Texels in the air: half a texel towards the light keeps the end of a ray, which lies on a surface, out of it.
-const float shadow_volume_bias = 0.5;
+// A plane changes its depth by at most so many texels from one to the next: what changes more is an edge.
+const float SHADOW_STEEPEST = 8.0;
 
 // Metres along the normal, for a texel of that size; cos_axis: between normal and the map's axis.
 float shadow_normal_offset(float texel, float cos_axis) {
-    return texel * (0.1 + 1.4 * sqrt(max(1.0 - cos_axis * cos_axis, 0.0)));
+    return texel * (0.6 + 1.6 * sqrt(max(1.0 - cos_axis * cos_axis, 0.0)));
+}
+
+// A point in a map: place in texels, depth, and what in depth are a texel and how far behind the point its own surface may
+// lie in the texels of the filter.
+struct MapPoint {
+    vec2 place;
+    float depth;
+    float texel;
+    float behind;
+};
+
+// Texels whose corners meet at floor(place) + 0.5, in textureGather's order.
+struct MapTexels {
+    vec4 depth;
+    vec2 weight;  // of those to the right and above
+};
+
+float weighted_mean(vec4 v, vec2 weight) { return mix(mix(v.w, v.z, weight.x), mix(v.x, v.y, weight.x), weight.y); }
+
+// x: share of the texels that let light through at the point, y: of those through which it passes behind it. `ahead`: from
+// the middle of the texels' weights to the point, texels.
+vec2 texels_lit(MapTexels texels, MapPoint p, vec2 ahead) {
+    vec4 d = texels.depth;
+    float nearest = max(max(d.x, d.y), max(d.z, d.w));
+    float steps = nearest - min(min(d.x, d.y), min(d.z, d.w));
+    float twist = abs(d.x + d.z - d.y - d.w);
+    if (steps <= SHADOW_STEEPEST * p.texel && twist <= 0.1 * steps + 0.05 * p.texel) {
+        vec2 slope = vec2(mix(d.z - d.w, d.y - d.x, texels.weight.y), mix(d.x - d.w, d.y - d.z, texels.weight.x));
+        d = vec4(min(weighted_mean(d, texels.weight) + dot(slope, ahead), nearest));  // it may end there
+    }
+    return vec2(weighted_mean(step(d, vec4(p.depth)), texels.weight),
+                weighted_mean(step(d, vec4(p.depth - p.behind)), texels.weight));
+}
+
+// Half a texel off centre in both axes, four bilinear taps are a 3x3 tent.
+const vec2 shadow_taps[4] = vec2[4](vec2(-0.5, -0.5), vec2(0.5, -0.5), vec2(-0.5, 0.5), vec2(0.5, 0.5));
+
+// Of the mean of what texels_lit gives. Where nothing of the surface is in the map it is lit.
+float visible_share(vec2 mean) { return mean.y < 0.999 ? clamp((mean.x - mean.y) / (1.0 - mean.y), 0.0, 1.0) : 1.0; }
+
+// Depth per metre towards the light in a sun's map.
+float sun_map_scale(mat4 world_to_texture) {
+    return length(vec3(world_to_texture[0].z, world_to_texture[1].z, world_to_texture[2].z));
 }
 
 // The cascade of a view depth (m), SUN_CASCADES beyond the last.
@@ -42,37 +93,45 @@ int sun_cascade_at(float view_depth) {
 
 bool in_map(vec3 p) { return all(lessThan(abs(p.xy - 0.5), vec2(0.5))); }
 
-// p: uv and depth. Casters or receivers outside the depth range were clamped to it.
-float sun_static_lookup(vec3 p) {
-    return texture(sun_static_map, vec3(p.xy, clamp(p.z, 0.0, 1.0)));
-}
-float sun_cascade_lookup(int cascade, vec3 p) {
-    return texture(sun_cascade_maps, vec4(p.xy, float(cascade), clamp(p.z, 0.0, 1.0)));
+mat4 sun_map_matrix(int map) { return map < SUN_CASCADES ? frame.sun_cascade[map] : frame.sun_static; }
+float sun_map_texel(int map) { return map < SUN_CASCADES ? frame.sun_texel[map] : frame.sun_static_texel.x; }
+float sun_map_texel_uv(int map) { return map < SUN_CASCADES ? frame.sun_static_texel.y : frame.sun_static_texel.z; }
+
+MapTexels sun_texels(int map, vec2 place) {
+    vec2 corner = floor(place - 0.5);
+    vec2 uv = (corner + 1.0) * sun_map_texel_uv(map);
+    return MapTexels(map < SUN_CASCADES ? textureGather(sun_cascade_maps, vec3(uv, float(map)))
+                                        : textureGather(sun_static_map, uv),
+                     place - 0.5 - corner);
 }
 
-// Half a texel off centre in both axes, four bilinear taps are a 3x3 tent.
-const vec2 shadow_taps[4] = vec2[4](vec2(-0.5, -0.5), vec2(0.5, -0.5), vec2(-0.5, 0.5), vec2(0.5, 0.5));
+// Casters outside the depth range were clamped to it: so are receivers. z: as in_map's.
+MapPoint sun_map_point(int map, vec3 p, float cos_axis, float offset) {
+    float scale = sun_map_scale(sun_map_matrix(map));
+    float texel = sun_map_texel(map);
+    float behind = 2.0 * offset / max(abs(cos_axis), 0.1) + 4.0 * texel;
+    return MapPoint(p.xy / sun_map_texel_uv(map), clamp(p.z, 0.0, 1.0), texel * scale, behind * scale);
+}
+
+float sun_point_filtered(int map, MapPoint p) {
+    vec2 sum = vec2(0.0);
+    count_work(WORK_SHADOW_LOOKUPS, 4u);
+    for (int i = 0; i < 4; ++i) sum += texels_lit(sun_texels(map, p.place + shadow_taps[i]), p, -shadow_taps[i]);
+    return visible_share(0.25 * sum);
+}
 
 // One map; map SUN_CASCADES is the static one, which also serves what a cascade does not cover.
 float sun_map_surface(int map, vec3 world, vec3 normal) {
     float cos_axis = dot(normal, frame.sun_direction.xyz);
-    float lit = 0.0;
-    if (map < SUN_CASCADES) {
-        vec3 p = (frame.sun_cascade[map] *
-                  vec4(world + normal * shadow_normal_offset(frame.sun_texel[map], cos_axis), 1.0)).xyz;
-        if (in_map(p)) {
-            count_work(WORK_SHADOW_LOOKUPS, 4u);
-            for (int i = 0; i < 4; ++i)
-                lit += sun_cascade_lookup(map, p + vec3(shadow_taps[i] * frame.sun_static_texel.y, 0.0));
-            return 0.25 * lit;
-        }
+    float offset = shadow_normal_offset(sun_map_texel(map), cos_axis);
+    vec3 p = (sun_map_matrix(map) * vec4(world + normal * offset, 1.0)).xyz;
+    if (map < SUN_CASCADES && !in_map(p)) {
+        map = SUN_CASCADES;
+        offset = shadow_normal_offset(sun_map_texel(map), cos_axis);
+        p = (frame.sun_static * vec4(world + normal * offset, 1.0)).xyz;
     }
-    vec3 p = (frame.sun_static *
-              vec4(world + normal * shadow_normal_offset(frame.sun_static_texel.x, cos_axis), 1.0)).xyz;
     if (!in_map(p)) return 1.0;
-    count_work(WORK_SHADOW_LOOKUPS, 4u);
-    for (int i = 0; i < 4; ++i) lit += sun_static_lookup(p + vec3(shadow_taps[i] * frame.sun_static_texel.z, 0.0));
-    return 0.25 * lit;
+    return sun_point_filtered(map, sun_map_point(map, p, cos_axis, offset));
 }
 
 // Filtered, for surfaces. `view_depth` (m along the view axis) picks the cascade; the last tenth of each is mixed with
@@ -90,14 +149,16 @@ float sun_shadow_surface(vec3 world, vec3 normal, float view_depth) {
 
 // One lookup, for points in the air. Not counted as work here: the volumetrics module counts what it asks for.
 float sun_shadow_volume(vec3 world, float view_depth) {
-    vec3 towards_sun = -shadow_volume_bias * frame.sun_direction.xyz;
-    int cascade = sun_cascade_at(view_depth);
-    if (cascade < SUN_CASCADES) {
-        vec3 p = (frame.sun_cascade[cascade] * vec4(world + towards_sun * frame.sun_texel[cascade], 1.0)).xyz;
-        if (in_map(p)) return sun_cascade_lookup(cascade, p);
+    int map = sun_cascade_at(view_depth);
+    vec3 p = (sun_map_matrix(map) * vec4(world, 1.0)).xyz;
+    if (map < SUN_CASCADES && !in_map(p)) {
+        map = SUN_CASCADES;
+        p = (frame.sun_static * vec4(world, 1.0)).xyz;
     }
-    vec3 p = (frame.sun_static * vec4(world + towards_sun * frame.sun_static_texel.x, 1.0)).xyz;
-    return in_map(p) ? sun_static_lookup(p) : 1.0;
+    if (!in_map(p)) return 1.0;
+    MapPoint point = sun_map_point(map, p, 1.0, 0.0);
+    point.behind = point.depth;
+    return visible_share(texels_lit(sun_texels(map, point.place), point, vec2(0.0)));
 }
 
 // Face of a cube that a direction from its centre passes: +X -X +Y -Y +Z -Z.
@@ -107,49 +168,69 @@ int cube_face(vec3 d) {
     if (a.y >= a.z) return d.y > 0.0 ? 2 : 3;
     return d.z > 0.0 ? 4 : 5;
 }
-bool is_point(GpuLight light) { return light.direction_type.w < 0.5; }
+bool is_point(GpuLight light) { return int(light.direction_type.w) == LIGHT_POINT; }
+// Whether a clip position lies beside the map of a further sun.
+bool beside_sun_tile(GpuLight light, vec4 clip) {
+    return int(light.direction_type.w) == LIGHT_SUN && any(greaterThan(abs(clip.xy), clip.ww));
+}
 uint shadow_tile_of(GpuLight light, vec3 world) {
     int face = is_point(light) ? cube_face(world - light.position_range.xyz) : 0;
     return uint(int(light.cone_shadow.z) + face);
 }
 
-// A clip position's place in its tile, kept where no bilinear tap reads a neighbour, moved by `tap` texels.
-float atlas_lookup(ShadowTile tile, vec4 clip, vec2 tap) {
-    float half_texel = tile.rect.w;
-    vec3 p = clip.xyz / clip.w;
-    vec2 uv = tile.rect.xy + tile.rect.z * (0.5 + 0.5 * p.xy) + tap * 2.0 * half_texel;
-    uv = clamp(uv, tile.rect.xy + half_texel, tile.rect.xy + tile.rect.z - half_texel);
-    return texture(shadow_atlas, vec3(uv, clamp(p.z, 0.0, 1.0)));
+// A clip position in its tile. `texel`: m. A plane is one in the perspective of a map, too.
+MapPoint tile_point(GpuLight light, ShadowTile tile, vec4 clip, float texel, float cos_axis, float offset) {
+    mat4 m = tile.world_to_clip;
+    vec3 axis = is_point(light) ? vec3(m[0].w, m[1].w, m[2].w) : light.direction_type.xyz;
+    float depth = clip.z / clip.w;
+    // Depth per metre along the axis.
+    float scale = abs(dot(vec3(m[0].z, m[1].z, m[2].z), axis) - depth * dot(vec3(m[0].w, m[1].w, m[2].w), axis)) / clip.w;
+    float behind = 2.0 * offset / max(abs(cos_axis), 0.1) + 4.0 * texel;
+    vec2 uv = tile.rect.xy + tile.rect.z * (0.5 + 0.5 * clip.xy / clip.w);
+    return MapPoint(uv / (2.0 * tile.rect.w), clamp(depth, 0.0, 1.0), texel * scale, behind * scale);
 }
 
-// Filtered, for surfaces. 1 for a light without a shadow, without a drawn tile, and nearer to the light than its map
-// begins.
+// The texels round a place moved by `tap`, kept where none of a neighbouring tile are read.
+vec2 tile_lit(ShadowTile tile, MapPoint p, vec2 tap) {
+    float texel_uv = 2.0 * tile.rect.w;
+    vec2 low = tile.rect.xy / texel_uv + 0.5;
+    vec2 place = clamp(p.place + tap, low, low + tile.rect.z / texel_uv - 1.0);
+    vec2 corner = min(floor(place - 0.5), low + tile.rect.z / texel_uv - 2.5);
+    MapTexels texels = MapTexels(textureGather(shadow_atlas, (corner + 1.0) * texel_uv), place - 0.5 - corner);
+    return texels_lit(texels, p, p.place - place);
+}
+
+// Filtered, for surfaces. 1 for a light without a shadow, without a drawn tile, nearer to the light than its map begins,
+// and beside a sun's map.
 float light_shadow_surface(GpuLight light, vec3 world, vec3 normal) {
     if (light.cone_shadow.z < 0.0) return 1.0;
     ShadowTile tile = shadow_tiles[shadow_tile_of(light, world)];
     // Clip w is the distance along the tile's axis.
     mat4 m = tile.world_to_clip;
     vec4 w_row = vec4(m[0].w, m[1].w, m[2].w, m[3].w);
-    float distance_on_axis = max(dot(w_row, vec4(world, 1.0)), 0.0);
-    float offset = shadow_normal_offset(tile.depth.z * distance_on_axis, dot(normal, w_row.xyz));
+    float texel = tile.depth.z * max(dot(w_row, vec4(world, 1.0)), 0.0);
+    float cos_axis = dot(normal, is_point(light) ? w_row.xyz : light.direction_type.xyz);
+    float offset = shadow_normal_offset(texel, cos_axis);
     vec3 p = world + normal * offset;
     tile = shadow_tiles[shadow_tile_of(light, p)];
     vec4 clip = tile.world_to_clip * vec4(p, 1.0);
-    if (tile.depth.w == 0.0 || clip.w <= tile.depth.x) return 1.0;
-    float lit = 0.0;
+    if (tile.depth.w == 0.0 || clip.w <= tile.depth.x || beside_sun_tile(light, clip)) return 1.0;
+    MapPoint point = tile_point(light, tile, clip, texel, cos_axis, offset);
+    vec2 sum = vec2(0.0);
     count_work(WORK_SHADOW_LOOKUPS, 4u);
-    for (int i = 0; i < 4; ++i) lit += atlas_lookup(tile, clip, shadow_taps[i]);
-    return 0.25 * lit;
+    for (int i = 0; i < 4; ++i) sum += tile_lit(tile, point, shadow_taps[i]);
+    return visible_share(0.25 * sum);
 }
 
 // One lookup, for points in the air. The same limits.
 float light_shadow_volume(GpuLight light, vec3 world) {
     if (light.cone_shadow.z < 0.0) return 1.0;
     ShadowTile tile = shadow_tiles[shadow_tile_of(light, world)];
-    vec3 p = world + shadow_volume_bias * tile.depth.z * (light.position_range.xyz - world);
-    vec4 clip = tile.world_to_clip * vec4(p, 1.0);
-    if (tile.depth.w == 0.0 || clip.w <= tile.depth.x) return 1.0;
-    return atlas_lookup(tile, clip, vec2(0.0));
+    vec4 clip = tile.world_to_clip * vec4(world, 1.0);
+    if (tile.depth.w == 0.0 || clip.w <= tile.depth.x || beside_sun_tile(light, clip)) return 1.0;
+    MapPoint point = tile_point(light, tile, clip, tile.depth.z * clip.w, 1.0, 0.0);
+    point.behind = point.depth;
+    return visible_share(tile_lit(tile, point, vec2(0.0)));
 }
 
 #else

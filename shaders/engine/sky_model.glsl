@@ -24,6 +24,10 @@ vec3 sky_ozone() { return 15.0f * vec3(1.3e-3f, 1.881e-3f, 0.1e-3f); }
 
 vec3 sky_ground_albedo() { return vec3(0.20f, 0.18f, 0.14f); }
 
+// Radiance (cd/m^2) of a clear sky without sun and moon, airglow and stars: 22 magnitudes an arcsecond squared, which give
+// the ground a thousandth of a lux.
+vec3 sky_night() { return vec3(2.2e-4f, 2.5e-4f, 3.2e-4f); }
+
 // Air mass of an exponential atmosphere: optical depth to infinity over the vertical one, for x = radius / scale height
 // and the cosine to the zenith (Schueler 2012, "An Approximation to the Chapman Grazing-Incidence
 // Function"). Within 16%, worst near 1 degree.
@@ -75,9 +79,14 @@ float sky_extraterrestrial(float illuminance, float sun_height) {
 }
 
 // Radiance (cd/m^2) from direction `d` (unit, +Y up) without the disc of the sun, which stands at the unit vector
-// `sun` and gives `illuminance` lux. Below the horizon it is a lit ground seen through the air.
+// `sun` and gives `illuminance` lux; 0: there is none, and it is night. Below the horizon it is a lit ground seen through
+// the air.
 vec3 sky_radiance(vec3 d, vec3 sun, float illuminance) {
     float ground = sky_sphere(d.y, SKY_GROUND, true);
+    vec3 night = ground > 0.0f ? sky_ground_albedo() * sky_night() : sky_night();
+    if (illuminance <= 0.0f) {
+        return night;
+    }
     float end = ground > 0.0f ? ground : sky_sphere(d.y, SKY_TOP, false);
     float cos_theta = dot(d, sun);
     float rayleigh_phase = 3.0f / (16.0f * SKY_PI) * (1.0f + cos_theta * cos_theta);
@@ -120,7 +129,7 @@ vec3 sky_radiance(vec3 d, vec3 sun, float illuminance) {
                    vec3(0.05f, 0.06f, 0.08f) * smoothstep(-0.1f, 0.3f, sun.y);
         radiance += transmittance * sky_ground_albedo() * lit / SKY_PI;
     }
-    return radiance * sky_extraterrestrial(illuminance, sun.y);
+    return radiance * sky_extraterrestrial(illuminance, sun.y) + night;
 }
 
 #endif

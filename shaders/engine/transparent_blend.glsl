@@ -2,8 +2,8 @@
 #ifndef ENGINE_TRANSPARENT_BLEND_GLSL
 #define ENGINE_TRANSPARENT_BLEND_GLSL
 
-// The sky is the sun's; where its light is turned off, a uniform says so.
-#define HAS_AMBIENT HAS_SUN
+// Where the sky's light is turned off, a uniform says so.
+#define HAS_AMBIENT 1
 
 // A file is included once, be it in an #if that does not hold: so first what is needed in any case.
 #include "shaders/engine/light_data.glsl"

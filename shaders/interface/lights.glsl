@@ -5,7 +5,8 @@
 
 #include "shaders/engine/light_data.glsl"
 
-// Direction sunlight travels (unit) and its illuminance in lux. Called only when the host said there is a sun.
+// Direction sunlight travels (unit) and its illuminance in lux. Called only when the host said there is a sun. Further
+// suns are local lights, SUN_LAMP_DISTANCE away, and the first of them.
 vec3 sun_direction() { return frame.sun_direction.xyz; }
 vec3 sun_illuminance() { return frame.sun_illuminance.rgb; }
 

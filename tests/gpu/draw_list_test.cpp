@@ -92,7 +92,12 @@ class DrawListTest : public GlTest {
         program_.use();
         program_.set("view_projection", window({0, 0}, {8, 8}));
         list.draw(
-            gpu, [&](int material) { program_.set("material", material); }, view);
+            gpu,
+            [&](int material) {
+                program_.set("material", material);
+                return true;
+            },
+            view);
         const Image image = gl::read_texture(target_);
         std::vector<int> nodes;
         for (int i = 0; i < 64; ++i) {

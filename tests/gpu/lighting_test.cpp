@@ -27,6 +27,7 @@ double rough_dielectric(double albedo, glm::dvec3 n, glm::dvec3 v, glm::dvec3 l)
 
 class Lighting : public GlTest {
   protected:
+    Lighting() { options_.render.ambient = 0; }
     Image draw() {
         renderer_.prepare(builder_.finish());
         renderer_.render(builder_.scene, view_, size, options_);

@@ -60,11 +60,29 @@ class RendererTest : public GlTest {
     bool prepared_ = false;
 };
 
-TEST_F(RendererTest, WithoutLightOnlySurfacesAreDrawn) {
+TEST_F(RendererTest, WithoutLightSurfacesAreDrawnAtNight) {
     draw();
-    EXPECT_EQ(live(), (Names{"gbuffer", "lighting", "tonemap"}));
+    EXPECT_EQ(live(), (Names{"gbuffer", "lighting", "sky/cube", "sky/irradiance", "sky/background", "tonemap"}));
     EXPECT_EQ(reason("light_cull"), "no lamp in view");
-    EXPECT_EQ(reason("sky/cube"), "no sun in the scene");
+    draw();
+    EXPECT_EQ(live(), (Names{"gbuffer", "lighting", "sky/background", "tonemap"}));
+}
+
+// Air, surfaces and the sky itself: 2.2e-4 to 3.2e-4 cd/m².
+TEST_F(RendererTest, TheSkyOfAMoonlessNightIsSeenAndLights) {
+    const int white = builder_.material(glm::vec3(1));
+    builder_.scene.materials[std::size_t(white)].dielectric_f0 = 0;
+    builder_.ground({0, 5, 0}, 4, white);
+    options_.render.ambient = 1;
+    view_ = look_at({0, 6, 0.5f}, {0, 5, 0}, 1.0f, 0.1f, 1.5f);
+    draw();
+    EXPECT_TRUE(renderer_.facts().has_ambient);
+    EXPECT_NEAR(renderer_.read_layer().at(48, 32)[1], 2.5e-4f, 1e-5f);
+    view_ = look_at({0, 6, 0}, {0, 7, -1}, 1.0f, 0.1f, 1.5f);
+    draw();
+    const float seen = renderer_.read_layer().at(48, 32)[1];
+    EXPECT_LE(seen, 2.5e-4f);
+    EXPECT_GT(seen, 1.2e-4f) << "through clouds";
 }
 
 TEST_F(RendererTest, SunBringsItsShadowsAndTheSkyAndNoClusters) {
@@ -85,19 +103,19 @@ TEST_F(RendererTest, SunBringsItsShadowsAndTheSkyAndNoClusters) {
 TEST_F(RendererTest, LampsBringClustersAndNothingOfTheSun) {
     lamp();
     draw();
-    EXPECT_EQ(live(),
-              (Names{"gbuffer", "depth_pyramid", "light_cull", "cluster", "shadow_atlas", "lighting", "tonemap"}));
+    EXPECT_EQ(live(), (Names{"gbuffer", "depth_pyramid", "light_cull", "cluster", "shadow_atlas", "lighting",
+                             "sky/cube", "sky/irradiance", "sky/background", "tonemap"}));
     options_.render.occlusion_culling = false;
     options_.render.shadows = false;
     draw();
-    EXPECT_EQ(live(), (Names{"gbuffer", "light_cull", "cluster", "lighting", "tonemap"}));
+    EXPECT_EQ(live(), (Names{"gbuffer", "light_cull", "cluster", "lighting", "sky/background", "tonemap"}));
 }
 
 TEST_F(RendererTest, ALampOutOfViewCostsNothing) {
     builder_.point({0, 2, 40}, glm::vec3(100), 5);
     draw();
     EXPECT_EQ(renderer_.facts().local_lights_in_view, 0);
-    EXPECT_EQ(live(), (Names{"gbuffer", "lighting", "tonemap"}));
+    EXPECT_FALSE(runs("cluster") || runs("shadow_atlas"));
 }
 
 TEST_F(RendererTest, AnUnshadowedLampNeedsNoAtlas) {

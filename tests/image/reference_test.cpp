@@ -81,8 +81,8 @@ TEST_F(ReferenceCommand, ThreadsDoNotShow) {
     EXPECT_EQ(one.pixels, three.pixels);
 }
 
-// Without a sun the sky is black and shadows are of a lamp above an open floor: what is left are surfaces, one lamp
-// in a homogeneous medium, and the engine's approximation of both.
+// Without a sun the sky is too dark to matter and shadows are of a lamp above an open floor: what is left are
+// surfaces, one lamp in a homogeneous medium, and the engine's approximation of both.
 TEST_F(ReferenceCommand, IsThePictureThatRenderDraws) {
     const std::vector<std::string> exact{"--set", "steps=256", "--set", "filter=none", "--set", "noise=none"};
     EXPECT_LT(relative_rmse(picture("render", exact), picture("reference")), 0.02);

@@ -73,6 +73,7 @@ void GBufferPass::draw(const FrameContext& frame, const glm::mat4* previous_view
         gl::apply(material.double_sided ? two_sided : one_sided);
         glEnable(GL_FRAMEBUFFER_SRGB);  // the albedo target encodes; the next pass's state turns it off
         bind_material(*programs[material.alpha_mask ? 1 : 0], material);
+        return true;
     });
 }
 

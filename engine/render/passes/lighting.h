@@ -10,7 +10,7 @@ namespace tyndall {
 
 /// What surfaces and media are lit by, made by the passes before.
 struct LightSources {
-    TextureRef sky;  ///< radiance cube; empty: no sky
+    TextureRef sky;  ///< radiance cube
     std::vector<TextureRef>
         textures;                    ///< shadow maps and the ambient cube: what shadow_lookup and light_data sample
     std::vector<BufferRef> buffers;  ///< and read

@@ -17,7 +17,15 @@ int power_of_two(int size) {
 }
 
 bool casts(const Light& light) {
-    return light.shadow && light.node >= 0 && shadow_tile_count(light.type) > 0;
+    return light.shadow && light.node >= 0;
+}
+
+/// The brightest sun has maps of its own.
+bool any_casts(const Scene& scene) {
+    std::vector<std::size_t> suns = scene.suns();
+    if (!suns.empty()) suns.erase(suns.begin());
+    return std::ranges::any_of(suns, [&](std::size_t i) { return casts(scene.lights[i]); }) ||
+           std::ranges::any_of(scene.lights, [](const Light& l) { return l.type != LightType::sun && casts(l); });
 }
 
 const glm::mat4& pose(const Scene& scene, const Light& light) {
@@ -27,7 +35,7 @@ const glm::mat4& pose(const Scene& scene, const Light& light) {
 }  // namespace
 
 ShadowAtlasPass::ShadowAtlasPass(ShaderLibrary& shaders)
-    : depth_(shaders), compare_({.compare = true, .compare_func = GL_GEQUAL}, "shadow atlas compare") {}
+    : depth_(shaders), texels_({.min_filter = GL_NEAREST, .mag_filter = GL_NEAREST}, "shadow atlas texels") {}
 
 void ShadowAtlasPass::release(FrameContext& context, const char* reason) {
     atlas_ = {};
@@ -46,7 +54,9 @@ void ShadowAtlasPass::plan(const FrameContext& context, std::span<const std::siz
     for (const std::size_t i : casters) {
         const Light& light = scene.lights[i];
         const float distance = glm::distance(context.view.eye, glm::vec3(pose(scene, light)[3]));
-        lights_[i].level = shadow_tile_level(light.range, distance, size_max, lights_[i].level);
+        lights_[i].level = light.type == LightType::sun
+                               ? std::countr_zero(static_cast<unsigned>(size_max))
+                               : shadow_tile_level(light.range, distance, size_max, lights_[i].level);
         demands.push_back({lights_[i].level, shadow_tile_count(light.type)});
     }
     const long long area = static_cast<long long>(allocator_.size()) * allocator_.size();
@@ -137,14 +147,21 @@ void ShadowAtlasPass::assign(const Scene& scene, std::span<const std::size_t> ca
 }
 
 // The tile buffer holds the tiles of all lights, in the order of the scene's lights.
-void ShadowAtlasPass::number_tiles(const Scene& scene) {
+void ShadowAtlasPass::number_tiles(const FrameContext& context) {
+    const Scene& scene = context.scene;
     std::vector<shared::ShadowTile> data;
     for (std::size_t i = 0; i < lights_.size(); ++i) {
         LightTiles& light = lights_[i];
         light.first = light.tiles.empty() ? -1 : static_cast<int>(data.size());
-        for (std::size_t face = 0; face < light.tiles.size(); ++face)
-            data.push_back(make_shadow_tile(scene.lights[i], pose(scene, scene.lights[i]), static_cast<int>(face),
-                                            light.tiles[face].place, allocator_.size()));
+        const glm::mat4& world = pose(scene, scene.lights[i]);
+        for (std::size_t face = 0; face < light.tiles.size(); ++face) {
+            const AtlasTile& place = light.tiles[face].place;
+            data.push_back(
+                scene.lights[i].type == LightType::sun
+                    ? make_sun_tile(static_bounds(context.gpu.instances(), scene.bounds), world, place,
+                                    allocator_.size())
+                    : make_shadow_tile(scene.lights[i], world, static_cast<int>(face), place, allocator_.size()));
+        }
     }
     if (data.empty()) data.emplace_back();  // a buffer of no bytes cannot be bound
     const std::size_t bytes = data.size() * sizeof(shared::ShadowTile);
@@ -161,7 +178,8 @@ void ShadowAtlasPass::find_redraws(const FrameContext& context, std::span<const 
         LightTiles& light = lights_[i];
         if (light.tiles.empty()) continue;
         const glm::vec3 position(pose(context.scene, context.scene.lights[i])[3]);
-        const bool near_moving = occluders.moving_within(position, context.scene.lights[i].range);
+        const bool near_moving = context.scene.lights[i].type == LightType::sun ||
+                                 occluders.moving_within(position, context.scene.lights[i].range);
         for (std::size_t face = 0; face < light.tiles.size(); ++face) {
             const shared::ShadowTile& data = tile_data_[light.first + face];
             ShadowKey key;
@@ -180,19 +198,18 @@ void ShadowAtlasPass::draw(const PassContext& pass, const GpuScene& gpu) {
     draws_.build(gpu, frusta, DrawList::Filter::shadow_casters);
 
     pass.bind_framebuffer();
-    gl::apply(ShadowDepth::state(false));
     glClearDepthf(0);
-    glEnable(GL_SCISSOR_TEST);  // clears reach their own tile only
     for (std::size_t i = 0; i < redraws_.size(); ++i) {
         const Redraw& redraw = redraws_[i];
         Tile& tile = lights_[redraw.light].tiles[redraw.tile];
+        gl::apply(ShadowDepth::state());
+        glEnable(GL_SCISSOR_TEST);  // clears reach their own tile only
         glViewport(tile.place.origin.x, tile.place.origin.y, tile.place.size, tile.place.size);
         glScissor(tile.place.origin.x, tile.place.origin.y, tile.place.size, tile.place.size);
         glClear(GL_DEPTH_BUFFER_BIT);
-        depth_.draw(gpu, draws_, static_cast<int>(i), redraw.data.world_to_clip);
+        depth_.draw(gpu, draws_, static_cast<int>(i), redraw.data.world_to_clip, false);
         tile.drawn_key = redraw.key;
     }
-    glDisable(GL_SCISSOR_TEST);
     tiles_drawn_ = static_cast<int>(redraws_.size());
 }
 
@@ -200,7 +217,7 @@ ShadowAtlasPass::Output ShadowAtlasPass::add(FrameContext& context) {
     tiles_drawn_ = 0;
     ++frame_;
     const Scene& scene = context.scene;
-    if (!context.settings.shadows || std::ranges::none_of(scene.lights, casts)) {
+    if (!context.settings.shadows || !any_casts(scene)) {
         release(context, context.settings.shadows ? "no lamp of the scene casts shadows" : "shadows are off");
         return {};
     }
@@ -219,7 +236,7 @@ ShadowAtlasPass::Output ShadowAtlasPass::add(FrameContext& context) {
     for (const std::size_t i : casters) lights_[i].seen = frame_;
     plan(context, casters);
     assign(scene, casters);
-    number_tiles(scene);
+    number_tiles(context);
     find_redraws(context, casters);
 
     Output out{context.passes.import("shadow atlas", atlas_),
@@ -241,7 +258,7 @@ int ShadowAtlasPass::first_tile(std::size_t scene_light_index) const {
 
 void ShadowAtlasPass::bind() const {
     glBindTextureUnit(UNIT_SHADOW_ATLAS, atlas_.id());
-    glBindSampler(UNIT_SHADOW_ATLAS, compare_.id());
+    glBindSampler(UNIT_SHADOW_ATLAS, texels_.id());
     if (tile_buffer_) tile_buffer_.bind(GL_SHADER_STORAGE_BUFFER, BINDING_SHADOW_TILES);
 }
 

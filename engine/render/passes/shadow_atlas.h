@@ -16,8 +16,8 @@
 
 namespace tyndall {
 
-/// Shadow maps of spot and point lights: tiles of one texture, sized by importance on screen. A tile is drawn again
-/// only when its place, its light or a caster in its view changed.
+/// Shadow maps of lamps and further suns: tiles of one texture, sized by importance on screen. A tile is drawn
+/// again only when its place, its light or a caster in its view changed.
 class ShadowAtlasPass {
   public:
     explicit ShadowAtlasPass(ShaderLibrary& shaders);
@@ -34,7 +34,7 @@ class ShadowAtlasPass {
     [[nodiscard]] int first_tile(std::size_t scene_light_index) const;
     /// Tiles that this frame's pass list has drawn.
     [[nodiscard]] int tiles_drawn() const { return tiles_drawn_; }
-    /// Binds texture, compare sampler and tile buffer (UNIT_SHADOW_ATLAS, BINDING_SHADOW_TILES) for
+    /// Binds texture, sampler and tile buffer (UNIT_SHADOW_ATLAS, BINDING_SHADOW_TILES) for
     /// shadow_lookup.glsl.
     void bind() const;
 
@@ -64,12 +64,12 @@ class ShadowAtlasPass {
     void drop(LightTiles& light);
     [[nodiscard]] bool drop_one_out_of_view();
     void repack(const Scene& scene, std::span<const std::size_t> casters);
-    void number_tiles(const Scene& scene);
+    void number_tiles(const FrameContext& context);
     void find_redraws(const FrameContext& context, std::span<const std::size_t> casters);
     void draw(const PassContext& pass, const GpuScene& gpu);
 
     ShadowDepth depth_;
-    gl::Sampler compare_;
+    gl::Sampler texels_;
     gl::Texture atlas_;
     gl::Buffer tile_buffer_;
     AtlasAllocator allocator_;

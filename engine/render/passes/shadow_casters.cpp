@@ -1,5 +1,6 @@
 #include "engine/render/passes/shadow_casters.h"
 
+#include <algorithm>
 #include <bit>
 
 namespace tyndall {
@@ -21,6 +22,18 @@ void add_bounds(ShadowKey& key, const Aabb& box) {
 
 void ShadowKey::add(std::span<const float> values) {
     for (const float v : values) add(std::uint64_t{std::bit_cast<std::uint32_t>(v)});
+}
+
+Aabb static_bounds(std::span<const Instance> instances, const Aabb& all) {
+    constexpr float backdrop = 300;  // m, the longest edge of what is not
+    Aabb bounds;
+    for (const Instance& instance : instances) {
+        const glm::vec3 size = instance.bounds.max - instance.bounds.min;
+        if (instance.dynamic || std::max({size.x, size.y, size.z}) > backdrop) continue;
+        bounds.add(instance.bounds.min);
+        bounds.add(instance.bounds.max);
+    }
+    return bounds.empty() ? all : bounds;
 }
 
 ShadowCasters::ShadowCasters(const Scene& scene, const GpuScene& gpu) : scene_(scene), instances_(gpu.instances()) {
@@ -58,28 +71,44 @@ bool ShadowCasters::moving_within(glm::vec3 center, float radius) const {
     return false;
 }
 
-gl::DrawState ShadowDepth::state(bool depth_clamp) {
-    return {
-        .depth_test = true, .depth_write = true, .depth_clamp = depth_clamp, .slope_bias = -1, .constant_bias = -2};
+gl::DrawState ShadowDepth::state() {
+    return {.depth_write = true};
 }
 
-void ShadowDepth::draw(const GpuScene& gpu, const DrawList& list, int view, const glm::mat4& world_to_clip) const {
+void ShadowDepth::draw(const GpuScene& gpu, const DrawList& list, int view, const glm::mat4& world_to_clip,
+                       bool depth_clamp) const {
+    for (const bool fronts : {true, false}) {
+        gl::apply({.depth_test = true,
+                   .depth_write = true,
+                   .cull = static_cast<GLenum>(fronts ? GL_BACK : GL_FRONT),
+                   .depth_clamp = depth_clamp,
+                   .slope_bias = fronts ? -0.5f : 0.0f,
+                   .constant_bias = -2});
+        draw_faces(gpu, list, view, world_to_clip, fronts);
+    }
+}
+
+void ShadowDepth::draw_faces(const GpuScene& gpu, const DrawList& list, int view, const glm::mat4& world_to_clip,
+                             bool fronts) const {
     const gl::Program* programs[2] = {};
     glBindSampler(0, 0);  // the scene's textures carry their own sampling
     list.draw(
         gpu,
         [&](int index) {
             const GpuScene::GpuMaterial& material = gpu.material(index);
+            if (material.double_sided && fronts) return false;
+            if (!fronts) (material.double_sided ? glDisable : glEnable)(GL_CULL_FACE);
             const gl::Program*& program = programs[material.alpha_mask];
             if (program == nullptr) {
                 program = &shaders_.get(depth_program, {{"ALPHA_MASK", material.alpha_mask}});
                 program->set("world_to_clip", world_to_clip);
             }
             program->use();
-            if (!material.alpha_mask) return;
+            if (!material.alpha_mask) return true;
             glBindTextureUnit(0, material.base_color);
             program->set("alpha_factor", material.base_color_factor.a);
             program->set("alpha_cutoff", material.emissive_alpha_cutoff.a);
+            return true;
         },
         view);
 }

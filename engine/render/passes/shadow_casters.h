@@ -27,6 +27,10 @@ class ShadowKey {
     std::uint64_t hash_ = 0xcbf29ce484222325ull;
 };
 
+/// What a sun's map of the whole scene covers: everything that stands still, without the backdrop of hills and
+/// plains, which would make its texels metres wide; where there is nothing else, those.
+[[nodiscard]] Aabb static_bounds(std::span<const Instance> instances, const Aabb& all);
+
 /// What casts shadows this frame, as keys.
 class ShadowCasters {
   public:
@@ -49,13 +53,18 @@ class ShadowCasters {
 class ShadowDepth {
   public:
     explicit ShadowDepth(ShaderLibrary& shaders) : shaders_(shaders) {}
-    /// Both sides of every triangle are drawn, so that open meshes cast too. Depth is moved away from the light by
-    /// what it changes over one texel: half of what keeps lit surfaces free of acne, the other half is the normal
-    /// offset in shaders/engine/shadow_lookup.glsl.
-    [[nodiscard]] static gl::DrawState state(bool depth_clamp);
-    void draw(const GpuScene& gpu, const DrawList& list, int view, const glm::mat4& world_to_clip) const;
+    /// For clearing the map.
+    [[nodiscard]] static gl::DrawState state();
+    /// Both sides of every triangle are drawn, so that open meshes cast too. The fronts are moved away from the
+    /// light by half of what their depth changes over one texel: that keeps lit surfaces free of acne, and in
+    /// closed bodies, however thin, the backs behind them keep their place. So do two-sided surfaces, which have no
+    /// backs behind them.
+    void draw(const GpuScene& gpu, const DrawList& list, int view, const glm::mat4& world_to_clip,
+              bool depth_clamp) const;
 
   private:
+    void draw_faces(const GpuScene& gpu, const DrawList& list, int view, const glm::mat4& world_to_clip,
+                    bool fronts) const;
     ShaderLibrary& shaders_;
 };
 

@@ -22,24 +22,10 @@ void ensure(gl::Texture& texture, const gl::TextureDesc& desc, const char* label
     if (!texture || texture.desc() != desc) texture = gl::Texture(desc, label);
 }
 
-/// What the baked map covers: everything that stands still, without the backdrop of hills and plains, which would
-/// make its texels metres wide; where there is nothing else, those.
-Aabb static_bounds(std::span<const Instance> instances, const Aabb& all) {
-    constexpr float backdrop = 300;  // m, the longest edge of what is not
-    Aabb bounds;
-    for (const Instance& instance : instances) {
-        const glm::vec3 size = instance.bounds.max - instance.bounds.min;
-        if (instance.dynamic || std::max({size.x, size.y, size.z}) > backdrop) continue;
-        bounds.add(instance.bounds.min);
-        bounds.add(instance.bounds.max);
-    }
-    return bounds.empty() ? all : bounds;
-}
-
 }  // namespace
 
 ShadowSunPass::ShadowSunPass(ShaderLibrary& shaders)
-    : depth_(shaders), compare_({.compare = true, .compare_func = GL_GEQUAL}, "sun shadow compare") {}
+    : depth_(shaders), texels_({.min_filter = GL_NEAREST, .mag_filter = GL_NEAREST}, "sun shadow texels") {}
 
 void ShadowSunPass::release(FrameContext& context, const std::string& reason) {
     cascades_ = {};
@@ -99,12 +85,12 @@ TextureRef ShadowSunPass::add_map(FrameContext& context, const ShadowCasters& ca
         [&](PassBuilder& pass) { texture = pass.attach_depth(texture, 0, is_static ? -1 : index); },
         [this, &map, volume, is_static, key, &gpu = context.gpu](const PassContext& pass) {
             pass.bind_framebuffer();
-            gl::apply(ShadowDepth::state(true));
+            gl::apply(ShadowDepth::state());
             glClearDepthf(0);
             glClear(GL_DEPTH_BUFFER_BIT);
             map.draws.build(gpu, volume,
                             is_static ? DrawList::Filter::static_shadow_casters : DrawList::Filter::shadow_casters);
-            depth_.draw(gpu, map.draws, 0, world_to_clip(map.fit));
+            depth_.draw(gpu, map.draws, 0, world_to_clip(map.fit), true);
             map.drawn_key = key.value();
         });
     return texture;
@@ -133,8 +119,8 @@ ShadowSunPass::Output ShadowSunPass::add(FrameContext& context) {
 void ShadowSunPass::bind() const {
     glBindTextureUnit(UNIT_SUN_CASCADES, cascades_.id());
     glBindTextureUnit(UNIT_SUN_STATIC, static_.id());
-    glBindSampler(UNIT_SUN_CASCADES, compare_.id());
-    glBindSampler(UNIT_SUN_STATIC, compare_.id());
+    glBindSampler(UNIT_SUN_CASCADES, texels_.id());
+    glBindSampler(UNIT_SUN_STATIC, texels_.id());
 }
 
 }  // namespace tyndall

@@ -27,7 +27,7 @@ class ShadowSunPass {
     /// frame.sun_cascade, sun_static, sun_cascade_far, sun_texel and sun_static_texel. Without a sun, or with
     /// settings.shadows off, the textures are freed and lookups return 1.
     Output add(FrameContext& context);
-    /// Binds textures and compare samplers at UNIT_SUN_CASCADES and UNIT_SUN_STATIC, for shadow_lookup.glsl.
+    /// Binds textures and samplers at UNIT_SUN_CASCADES and UNIT_SUN_STATIC, for shadow_lookup.glsl.
     void bind() const;
 
   private:
@@ -43,7 +43,7 @@ class ShadowSunPass {
     TextureRef add_map(FrameContext& context, const ShadowCasters& casters, int index, TextureRef texture);
 
     ShadowDepth depth_;
-    gl::Sampler compare_;
+    gl::Sampler texels_;
     gl::Texture cascades_, static_;
     std::array<Map, SUN_CASCADES + 1> maps_;
 };

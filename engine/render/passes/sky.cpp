@@ -34,13 +34,10 @@ void fill_cube(GLuint cube, int size) {
 }  // namespace
 
 SkyPass::Output SkyPass::add(FrameContext& frame) {
-    if (!frame.facts.has_sun) {
-        *this = {};
-        for (const char* name : {"sky/cube", "sky/irradiance"}) frame.passes.skip(name, "no sun in the scene");
-        return {};
-    }
-    sun_ = {-glm::vec3(frame.frame.sun_direction),
-            glm::dot(glm::vec3(frame.frame.sun_illuminance), glm::vec3(0.2126f, 0.7152f, 0.0722f))};
+    sun_ = {{0, 1, 0}, 0};
+    if (frame.facts.has_sun)
+        sun_ = {-glm::vec3(frame.frame.sun_direction),
+                glm::dot(glm::vec3(frame.frame.sun_illuminance), glm::vec3(0.2126f, 0.7152f, 0.0722f))};
     if (!radiance_) {
         radiance_ = gl::Texture({gl::TextureKind::cube, GL_RGBA16F, {radiance_size, radiance_size, 1}, 0}, "sky");
         irradiance_ =
@@ -93,10 +90,6 @@ void SkyPass::add_irradiance(FrameContext& frame, Output& sky) {
 }
 
 TextureRef SkyPass::add_background(FrameContext& frame, const Output& sky, TextureRef depth, TextureRef color) {
-    if (!sky.radiance) {
-        frame.passes.skip("sky/background", "no sun in the scene");
-        return color;
-    }
     frame.passes.add(
         "sky/background",
         [&](PassBuilder& pass) {

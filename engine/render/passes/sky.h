@@ -7,14 +7,15 @@
 
 namespace tyndall {
 
-/// The procedural sky (shaders/engine/sky_model.glsl) that belongs to the scene's sun: a cube of its radiance, with
-/// mips for reflections, and a cube of irradiance / pi. Both are drawn again only when the sun changed.
+/// The procedural sky (shaders/engine/sky_model.glsl) that belongs to the scene's brightest sun, at night without
+/// one: a cube of its radiance, with mips for reflections, and a cube of irradiance / pi. Both are drawn again only
+/// when the sun changed.
 class SkyPass {
   public:
     struct Output {
-        TextureRef radiance, irradiance;  ///< empty when there is no sky
+        TextureRef radiance, irradiance;
     };
-    /// Adds sky/cube and sky/irradiance, or says why not. Without a sun there is no sky: the cubes are freed.
+    /// Adds sky/cube and sky/irradiance, or says why not.
     Output add(FrameContext& frame);
     /// Fills the pixels of `color` where `depth` is empty; returns its new version.
     [[nodiscard]] TextureRef add_background(FrameContext& frame, const Output& sky, TextureRef depth,
@@ -23,8 +24,8 @@ class SkyPass {
 
   private:
     struct Sun {
-        glm::vec3 to_sun{0};  ///< unit
-        float illuminance{0};
+        glm::vec3 to_sun{0};   ///< unit
+        float illuminance{0};  ///< 0: none
         friend bool operator==(const Sun&, const Sun&) = default;
     };
     void add_cube(FrameContext& frame, Output& sky);

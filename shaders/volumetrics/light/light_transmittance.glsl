@@ -8,6 +8,7 @@
 #define VOLUMETRICS_LIGHT_TRANSMITTANCE_GLSL
 
 #include "shaders/lib/work.glsl"
+#include "shaders/shared/lights.h"
 #include "shaders/volumetrics/media/global_media.glsl"
 #include "shaders/volumetrics/light/light_volume.glsl"
 
@@ -22,10 +23,11 @@ vec3 sun_optical_depth(float y, vec3 to_sun) {
     return height_optical_depth_to_infinity(y, to_sun.y);
 }
 
-// Over the path between a point and a lamp.
+// Over the path between a point and a lamp, or a further sun.
 vec3 lamp_optical_depth(float y, vec3 to_lamp, float path_length) {
     if (volumetrics.light_transmittance == 0u) return vec3(0.0);
-    return volumetrics.homogeneous_sigma_t.rgb * path_length + height_optical_depth(y, to_lamp.y, path_length);
+    float in_homogeneous = path_length < 0.5 * SUN_LAMP_DISTANCE ? path_length : 0.0;
+    return volumetrics.homogeneous_sigma_t.rgb * in_homogeneous + height_optical_depth(y, to_lamp.y, path_length);
 }
 
 #if LIGHT_VOLUMES

@@ -85,6 +85,33 @@ const int TAIL_PARTS = 5;
 const float TAIL_GROWTH = 5.0;
 const float TAIL_FIRST_PART = 4.0 / 3124.0;  // (growth - 1) / (growth^parts - 1)
 
+#if HAS_SUN
+// What the further suns, the first of the lamps, send from global media over [begin, end] to its front, unshadowed.
+vec3 further_suns(Ray ray, float begin, float end) {
+    float y = ray.origin.y + ray.direction.y * begin;
+    Medium m = global_medium(y, ray.direction.y, end - begin);
+    Optics optics = medium_optics(m, end - begin);
+    vec3 sum = vec3(0.0);
+    for (uint i = 0u; i < volumetrics.further_suns; ++i) {
+        GpuLight light = light_at(i);
+        vec3 to_sun = -light.direction_type.xyz;
+        Extinction front = to_extinction(sun_optical_depth(y, to_sun));
+        Extinction back = to_extinction(sun_optical_depth(ray.origin.y + ray.direction.y * end, to_sun));
+        vec3 illuminance = light.intensity_radius.rgb / (SUN_LAMP_DISTANCE * SUN_LAMP_DISTANCE);
+        sum += illuminance * volume_scattering(m, dot(to_sun, ray.direction)) *
+               sun_between(optics.depth, front, back, end - begin).effective_length;
+    }
+    return sum;
+}
+#endif
+
+void add_tail_part(Ray ray, float begin, float end, vec3 ambient, inout Extinction sun_front, inout March march) {
+#if HAS_SUN
+    march.radiance += march.transmittance * further_suns(ray, begin, end);
+#endif
+    add_global(ray, begin, end, ambient, sun_front, march);
+}
+
 // Global media between the end of the march and the surface, or without end where there is none.
 void march_tail(Ray ray, float begin, float end, bool endless, vec3 ambient, Extinction sun_front, inout March march) {
     // What lies behind an optical depth of 16 cannot be seen: source and sun are taken from what lies before.
@@ -96,18 +123,18 @@ void march_tail(Ray ray, float begin, float end, bool endless, vec3 ambient, Ext
     float part_length = (visible_end - begin) * TAIL_FIRST_PART;
     int parts = HEIGHT_COUNT == 0u ? 1 : TAIL_PARTS;
     for (int i = 1; i < parts; ++i) {
-        add_global(ray, part_begin, part_begin + part_length, ambient, sun_front, march);
+        add_tail_part(ray, part_begin, part_begin + part_length, ambient, sun_front, march);
         part_begin += part_length;
         part_length *= TAIL_GROWTH;
     }
-    add_global(ray, part_begin, visible_end, ambient, sun_front, march);
+    add_tail_part(ray, part_begin, visible_end, ambient, sun_front, march);
 #else
-    add_global(ray, begin, visible_end, ambient, sun_front, march);
+    add_tail_part(ray, begin, visible_end, ambient, sun_front, march);
 #endif
 #if CHROMATIC
     // The clearest channel shows more.
     float clearest_end = min(end, begin + 16.0 / max(smallest(sigma_t), 1.0e-30));
-    if (clearest_end > visible_end) add_global(ray, visible_end, clearest_end, ambient, sun_front, march);
+    if (clearest_end > visible_end) add_tail_part(ray, visible_end, clearest_end, ambient, sun_front, march);
 #endif
     vec3 depth = height_optical_depth(ray.origin.y + ray.direction.y * begin, ray.direction.y, end - begin) +
                  volumetrics.homogeneous_sigma_t.rgb * (endless ? MAX_OPTICAL_DEPTH : end - begin);

@@ -66,8 +66,7 @@ void ShadowRig::frame(std::span<const std::size_t> in_view) {
     for (std::size_t i = 0; i < scene.lights.size(); ++i) {
         const Light& light = scene.lights[i];
         const glm::mat4& world = scene.nodes[static_cast<std::size_t>(light.node)].world;
-        lights.push_back(light.type == LightType::sun ? shared::GpuLight{}
-                                                      : gpu_light(light, world, atlas.first_tile(i)));
+        lights.push_back(gpu_light(light, world, atlas.first_tile(i)));
     }
     light_buffer_.assign(std::span<const shared::GpuLight>(lights), "lights");
 }

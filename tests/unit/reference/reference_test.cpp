@@ -103,6 +103,29 @@ TEST(Reference, SunInAHomogeneousMedium) {
     expect_close(ray.transmittance, dvec3(std::exp(-sigma_t * distance)), 1e-6);
 }
 
+// Several suns light the air and a Lambert wall; a dark one does not.
+TEST(Reference, SunsAdd) {
+    const dvec3 d(0, 0, -1), towards[] = {glm::normalize(dvec3(1, 1, 2)), glm::normalize(dvec3(-1, 3, 1))};
+    const double lux[] = {5, 30};
+    World w;
+    w.sun({0, 1, 0}, glm::vec3(0));
+    for (int i = 0; i < 2; ++i) w.sun(glm::vec3(towards[i]), glm::vec3(lux[i]));
+    w.medium(Shape::global, 0.05f, 0, 0.3f);
+    w.wall(-20);
+    w.scene.materials.front().dielectric_f0 = 0;
+    w.scene.materials.front().metallic = 0;
+    double scattered = 0, reflected = 0;
+    for (int i = 0; i < 2; ++i) {
+        scattered += lux[i] * phase(0.3f, glm::dot(towards[i], d)) * -std::expm1(-double(0.05f) * 20);
+        reflected += lux[i] * towards[i].z / pi;
+    }
+    Settings settings = World::exact();
+    settings.black_surfaces = false;
+    const Reference::Ray ray = w.trace(dvec3(0), d, settings);
+    expect_close(ray.scattering, dvec3(scattered), 1e-6);
+    expect_close(ray.background, dvec3(reflected), 1e-6);
+}
+
 // Air by Rayleigh, haze by its own phase function, each in every channel.
 TEST(Reference, SunInAirAndHaze) {
     const dvec3 to_sun = glm::normalize(dvec3(0.3, 0.5, 1)), d = glm::normalize(dvec3(0.1, -0.2, -1));

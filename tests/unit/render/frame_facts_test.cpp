@@ -45,6 +45,27 @@ TEST(FrameFacts, SunsCountIfTheyShine) {
     EXPECT_EQ(compute_facts(bright, camera()).local_lights_in_view, 0);
 }
 
+// The brightest by luminance is the sun; what shines beside it are lamps, wherever one looks.
+TEST(FrameFacts, FurtherSunsAreTheFirstLamps) {
+    Scene scene;
+    add_light(scene, LightType::point, {0, 0, -5});
+    add_light(scene, LightType::sun, {}, 0, 0);
+    add_light(scene, LightType::sun, {}, 0, 2);
+    add_light(scene, LightType::sun, {}, 0, 3);
+    scene.lights.back().intensity = {0, 0, 3};
+    add_light(scene, LightType::sun, {}, 0, 5);
+    EXPECT_EQ(scene.suns(), (std::vector<std::size_t>{4, 2, 3}));
+    EXPECT_EQ(scene.sun(), 4);
+    const FrameFacts facts = compute_facts(scene, camera());
+    EXPECT_TRUE(facts.has_sun);
+    EXPECT_EQ(facts.local_lights_in_view, 3);
+    ASSERT_EQ(facts.lamps.size(), 3u);
+    EXPECT_EQ(facts.lamps[0].light, 2u);
+    EXPECT_EQ(facts.lamps[1].light, 3u);
+    EXPECT_EQ(facts.lamps[2].light, 0u);
+    EXPECT_EQ(facts.lamps[0].position, glm::vec3(0, 0, sun_distance));
+}
+
 TEST(FrameFacts, LampsCountWhereTheirReachMeetsTheView) {
     struct Case {
         glm::vec3 position;

@@ -300,7 +300,7 @@ TEST_F(Gltf, LightsAreSharedDefinitionsWithTheirExtras) {
     EXPECT_EQ(scene.lights[*scene.sun()].name, "sun");
     EXPECT_EQ(scene.lights[0].intensity, glm::vec3(1000, 500, 250));
     EXPECT_EQ(scene.lights[1].type, LightType::point);
-    EXPECT_NEAR(scene.lights[1].range, 20, 1e-4f);  // 4 cd / (20 m)^2 = 0.01 lx
+    EXPECT_NEAR(scene.lights[1].range, 20, 1e-4f);  // 4 cd / (20 m)^2 = 0.01 lx, in daylight
     EXPECT_EQ(scene.lights[1].radius, 0.01f);
     EXPECT_TRUE(scene.lights[1].shadow);
     for (const std::size_t i : {2u, 3u}) {
@@ -312,6 +312,24 @@ TEST_F(Gltf, LightsAreSharedDefinitionsWithTheirExtras) {
         EXPECT_FALSE(scene.lights[i].shadow);
     }
     EXPECT_EQ(glm::vec3(scene.nodes[static_cast<std::size_t>(scene.lights[3].node)].world[3]), glm::vec3(1, 2, 3));
+}
+
+// What the end of a lamp without a range takes from a white surface is nowhere as much as half a step of 8 bits at
+// the scene's exposure, in which 1.2 * 2^EV cd/m² are white and sRGB is linear near black.
+TEST_F(Gltf, LampsWithoutARangeEndWhereTheyChangeNoPixel) {
+    for (const double exposure : {-6.0, 0.0, 5.0, 15.0}) {
+        GltfBuilder b;
+        b.light({{"type", "point"}, {"intensity", 100}});
+        b.doc["scenes"][0]["extras"]["exposure"] = exposure;
+        const Light light = load(b).lights.at(0);
+        const double range = light.range, step = std::numbers::pi * 1.2 * std::exp2(exposure) / (255 * 12.92);
+        for (double d = range / 64; d < 4 * range; d *= 1.1) {
+            const double window = std::max(1 - std::pow(d / range, 4), 0.0);
+            EXPECT_LT(100 / (d * d) * (1 - window), 0.5 * step) << exposure << " EV at " << d << " m";
+        }
+        EXPECT_GE(range, 99.9) << "0.01 lx at the latest";
+        EXPECT_LT(range, 1e4);
+    }
 }
 
 TEST_F(Gltf, CamerasAnimationsAndSceneExtras) {

@@ -41,7 +41,8 @@ struct LocalMedium {
     float base = 0, falloff = 1;
 };
 
-/// A lamp in view, by its index for light_at() of shaders/interface/lights.glsl.
+/// A lamp in view, by its index for light_at() of shaders/interface/lights.glsl. Suns beside Inputs::sun_direction
+/// are lamps SUN_LAMP_DISTANCE away (shaders/shared/lights.h), with the indices from 0 on.
 struct Lamp {
     std::uint32_t index = 0;
     glm::vec3 position{0};  ///< m

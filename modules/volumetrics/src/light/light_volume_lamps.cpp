@@ -107,6 +107,7 @@ LampVolumes::Slot& LampVolumes::slot_for(const Wanted& wanted) {
 void LampVolumes::prepare(const Inputs& inputs, const Settings& settings, FrameMedia& media) {
     std::vector<Wanted> all;
     for (const Lamp& lamp : inputs.has_lamps ? inputs.lamps : std::vector<Lamp>()) {
+        if (is_sun(lamp, inputs.eye)) continue;  // from there all media lie in one direction
         const float range = lamp.range > 0 ? lamp.range : std::numeric_limits<float>::max();
         Wanted wanted{.lamp = lamp};
         Hash hash;

@@ -69,10 +69,10 @@ glm::dvec2 global_at(const Inputs& inputs, double depth) {
     return sum;
 }
 
-/// Light at a view depth, to a factor: even under sun or sky, else the lamps' inverse squares, on a ray that passes
-/// them at their distance from the view, at least 1 m.
+/// Light at a view depth, to a factor: even under a sun, else the lamps' inverse squares, beside which a sky
+/// without a sun is faint, on a ray that passes them at their distance from the view, at least 1 m.
 double light_at(const Inputs& inputs, double depth) {
-    if (inputs.has_sun || inputs.has_ambient || inputs.lamps.empty()) return 1;
+    if (inputs.has_sun || inputs.lamps.empty()) return 1;
     double sum = 0;
     for (const Lamp& lamp : inputs.lamps) {
         const glm::dvec3 p(inputs.view * glm::vec4(lamp.position, 1));

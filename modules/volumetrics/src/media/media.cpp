@@ -11,6 +11,7 @@
 #include "reconstruction/noise.h"
 #include "reconstruction/reconstruction.h"
 #include "shaders/lib/glm_subset.h"
+#include "shaders/shared/lights.h"
 #include "volumetrics/technique.h"
 
 TYNDALL_GLSL_BEGIN
@@ -171,6 +172,10 @@ unsigned phase_option(PhaseFunction phase) {
 
 }  // namespace
 
+bool is_sun(const Lamp& lamp, glm::vec3 eye) {
+    return glm::distance(eye, lamp.position) > 0.5F * SUN_LAMP_DISTANCE;
+}
+
 FrameMedia gather_media(const Inputs& inputs, const Settings& settings) {
     FrameMedia media;
     const TechniqueDesc& desc = technique(settings.technique);
@@ -197,6 +202,8 @@ FrameMedia gather_media(const Inputs& inputs, const Settings& settings) {
     media.data.back_weight = settings.light.back_weight;
     media.data.light_transmittance = settings.light.transmittance ? 1U : 0U;
     media.data.has_ambient = inputs.has_ambient ? 1U : 0U;
+    media.data.further_suns = static_cast<std::uint32_t>(
+        std::ranges::count_if(inputs.lamps, [&](const Lamp& l) { return is_sun(l, inputs.eye); }));
     media.data.fog_mode = static_cast<unsigned>(settings.analytic_fog.mode);
     media.data.radial_samples = static_cast<float>(settings.radial_shafts.samples);
     media.data.radial_decay = settings.radial_shafts.decay;

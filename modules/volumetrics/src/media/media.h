@@ -47,6 +47,9 @@ struct FrameMedia {
     [[nodiscard]] bool empty() const { return !has_global && local.empty(); }
 };
 
+/// Whether it stands for a further sun.
+[[nodiscard]] bool is_sun(const Lamp& lamp, glm::vec3 eye);
+
 /// Value of the axis HEIGHT_MEDIA: see shaders/volumetrics/media/global_media.glsl.
 [[nodiscard]] int height_media_axis(const FrameMedia& media);
 
