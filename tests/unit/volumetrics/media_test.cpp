@@ -76,6 +76,15 @@ TEST(VolumetricsMedia, MediaThatDoNothingAreLeftOut) {
     EXPECT_THROW((void)gather_media(inputs, {}), Error);
 }
 
+TEST(VolumetricsMedia, NoiseSeedsKeepAllTheirBits) {
+    Inputs inputs = view_inputs();
+    for (const int seed : {16777217, 2147483647, -1}) {
+        inputs.local = {{.center = {0, 0, -5}, .sigma_a = glm::vec3(1), .noise_scale = 1, .noise_amount = 1}};
+        inputs.local[0].noise_seed = seed;
+        EXPECT_EQ(gather_media(inputs, {}).local.at(0).noise_seed.x, static_cast<unsigned>(seed));
+    }
+}
+
 TEST(VolumetricsMedia, StepsFillTheRayAndGrowByTheStrength) {
     Inputs inputs = view_inputs();
     inputs.global = {{.sigma_s = glm::vec3(1)}};

@@ -23,11 +23,10 @@ SettingsTable& growing_settings_table() {
             .name(&S::technique,
                   {"technique", "Technique", "How light in the medium is computed; off costs nothing."},
                   technique_names, Effect::permutation)
-            .integer(
-                in(&S::march, &MarchSettings::steps),
-                {"steps", "Steps",
-                 "Segments per ray; time grows in proportion, error falls where shadow edges and local media are."},
-                1, 1024, Effect::uniform, Scale::logarithmic)
+            .integer(in(&S::march, &MarchSettings::steps),
+                     {"steps", "Steps",
+                      "Segments per ray; time grows in proportion, error falls where shadow edges are."},
+                     1, 1024, Effect::uniform, Scale::logarithmic)
             .choice(in(&S::march, &MarchSettings::stepping),
                     {"stepping", "Stepping",
                      "Equal segments, or segments that grow with distance and so are finer near the eye."},
@@ -178,11 +177,12 @@ SettingsTable& growing_settings_table() {
                       "shadows or media changed. Changes of sun, camera, global media and lamps that the host "
                       "tells count always. Not of blend."},
                      Effect::uniform)
-            .integer(in(&S::froxels, &FroxelSettings::x),
-                     {"froxels_x", "Froxels across",
-                      "Columns of froxels over the width: local media, and all light of the technique froxel; "
-                      "memory and time grow in proportion."},
-                     8, 512, Effect::resource)
+            .integer(
+                in(&S::froxels, &FroxelSettings::x),
+                {"froxels_x", "Froxels across",
+                 "Columns of froxels over the width: noise of local media, and all light of the technique froxel; "
+                 "memory and time grow in proportion."},
+                8, 512, Effect::resource)
             .integer(in(&S::froxels, &FroxelSettings::y),
                      {"froxels_y", "Froxels up", "Columns of froxels over the height."}, 8, 512, Effect::resource)
             .integer(in(&S::froxels, &FroxelSettings::z),
@@ -190,8 +190,8 @@ SettingsTable& growing_settings_table() {
                      Effect::resource)
             .real(in(&S::froxels, &FroxelSettings::far),
                   {"froxel_far", "Froxel far distance",
-                   "View depth where the froxels end; behind it there are no local media, and in the technique "
-                   "froxel neither lamps nor shadows.",
+                   "View depth where the froxels end; behind it local media have no noise, and in the technique "
+                   "froxel there are neither lamps nor shadows.",
                    "m"},
                   4, 4096, Scale::logarithmic)
             .choice(in(&S::froxels, &FroxelSettings::distribution),
