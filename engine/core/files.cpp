@@ -48,6 +48,21 @@ bool has_scheme(std::string_view uri) {
     return end != uri.end() && *end == ':' && letter(uri.front());
 }
 
+/// The largest number of arrays and objects inside one another.
+int nesting_depth(std::string_view json) {
+    int depth = 0, deepest = 0;
+    bool in_string = false;
+    for (std::size_t i = 0; i < json.size(); ++i) {
+        const char c = json[i];
+        if (in_string && c == '\\') ++i;
+        if (c == '"') in_string = !in_string;
+        if (in_string) continue;
+        if (c == '[' || c == '{') deepest = std::max(deepest, ++depth);
+        if (c == ']' || c == '}') --depth;
+    }
+    return deepest;
+}
+
 }  // namespace
 
 std::string read_text(const fs::path& path) {
@@ -58,13 +73,24 @@ std::vector<std::uint8_t> read_bytes(const fs::path& path) {
     return read_all<std::vector<std::uint8_t>>(path);
 }
 
-nlohmann::json read_json(const fs::path& path) {
-    const std::string text = read_text(path);
+nlohmann::json parse_json(std::string_view text) {
+    constexpr int deepest = 100;
+    if (nesting_depth(text) > deepest)
+        throw Error(fmt::format("the JSON is nested deeper than {} levels", deepest));
     try {
         return nlohmann::json::parse(text);
     } catch (const nlohmann::json::exception& e) {
         const std::string_view message = e.what();  // "[json.exception.parse_error.101] parse error at line …"
-        throw Error(fmt::format("{}: {}", path.string(), message.substr(message.find(' ') + 1)));
+        throw Error(std::string(message.substr(message.find(' ') + 1)));
+    }
+}
+
+nlohmann::json read_json(const fs::path& path) {
+    const std::string text = read_text(path);
+    try {
+        return parse_json(text);
+    } catch (const Error& e) {
+        throw Error(fmt::format("{}: {}", path.string(), e.what()));
     }
 }
 

@@ -12,6 +12,8 @@ namespace tyndall {
 /// All throw Error with the path and the system's reason.
 [[nodiscard]] std::string read_text(const std::filesystem::path& path);
 [[nodiscard]] std::vector<std::uint8_t> read_bytes(const std::filesystem::path& path);
+/// Error has line and column. At most 100 arrays and objects inside one another: what walks JSON calls itself.
+[[nodiscard]] nlohmann::json parse_json(std::string_view text);
 [[nodiscard]] nlohmann::json read_json(const std::filesystem::path& path);  ///< error has line and column
 
 /// Calls `write` with a temporary path beside `path` (same extension) and renames it when it returns: a failure
