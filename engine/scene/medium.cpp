@@ -42,14 +42,18 @@ struct Field {
         if (!std::isfinite(value) || !valid(value)) fail(expected);
         return value;
     }
-    [[nodiscard]] float number() const {
-        return number("a finite number", [](float) { return true; });
+    // Metres: as far as nodes may be, and not so small that squares and inverses leave the range of numbers.
+    [[nodiscard]] float place() const {
+        return number("a number from -1e9 to 1e9", [](float v) { return std::abs(v) <= 1e9f; });
     }
-    [[nodiscard]] float positive() const {
-        return number("a number > 0", [](float v) { return v > 0; });
+    [[nodiscard]] float size() const {
+        return number("a number from 1e-6 to 1e9", [](float v) { return v >= 1e-6f && v <= 1e9f; });
     }
-    [[nodiscard]] float not_negative() const {
-        return number("a number >= 0", [](float v) { return v >= 0; });
+    [[nodiscard]] float width() const {
+        return number("a number from 0 to 1e9", [](float v) { return v >= 0 && v <= 1e9f; });
+    }
+    [[nodiscard]] float share() const {
+        return number("a number from 0 to 1", [](float v) { return v >= 0 && v <= 1; });
     }
     // Far beyond any matter, and such that products with densities, lengths and light stay finite.
     [[nodiscard]] float coefficient() const {
@@ -80,14 +84,14 @@ struct ShapeRow {
 const ShapeRow shapes[] = {
     {"global", Medium::Shape::global, {"phase"}},
     {"height", Medium::Shape::height, {"phase", "base", "falloff"}},
-    {"sphere", Medium::Shape::sphere, {}, "radius", [](const Field& field) { return glm::vec3(field.positive()); }},
+    {"sphere", Medium::Shape::sphere, {}, "radius", [](const Field& field) { return glm::vec3(field.size()); }},
     {"ellipsoid",
      Medium::Shape::ellipsoid,
      {},
      "radii",
-     [](const Field& field) { return field.vector<3>(&Field::positive); }},
+     [](const Field& field) { return field.vector<3>(&Field::size); }},
     {"box", Medium::Shape::box, {}, "size", [](const Field& field) {
-         return field.vector<3>(&Field::positive) * 0.5f;
+         return field.vector<3>(&Field::size) * 0.5f;
      }}};
 
 const ShapeRow& parse_shape(const Field& medium) {
@@ -101,10 +105,30 @@ const ShapeRow& parse_shape(const Field& medium) {
 }
 
 void require_known_keys(const Field& field, const ShapeRow& shape) {
-    std::vector<std::string_view> keys{"shape", "scattering", "absorption", "anisotropy", "emission"};
+    std::vector<std::string_view> keys{"shape",      "scattering", "absorption", "albedo",
+                                       "extinction", "anisotropy", "emission"};
     keys.insert(keys.end(), shape.own_keys.begin(), shape.own_keys.end());
     if (shape.extent) keys.insert(keys.end(), {"center", shape.extent, "rotation", "softness", "noise", "height"});
     field.require_object(keys);
+}
+
+/// Scattering with or without absorption, or albedo with extinction.
+void parse_coefficients(const Field& field, Medium& medium) {
+    if (!field.has("albedo") && !field.has("extinction")) {
+        medium.sigma_s = field.at("scattering").vector<3>(&Field::coefficient);
+        if (field.has("absorption")) medium.sigma_a = field.at("absorption").vector<3>(&Field::coefficient);
+        return;
+    }
+    for (const char* other : {"scattering", "absorption"})
+        if (field.has(other))
+            throw Error(
+                fmt::format("{}.{}: given beside albedo or extinction; scattering and absorption, or albedo "
+                            "and extinction expected",
+                            field.where, other));
+    const glm::vec3 albedo = field.at("albedo").vector<3>(&Field::share);
+    const glm::vec3 extinction = field.at("extinction").vector<3>(&Field::coefficient);
+    medium.sigma_s = albedo * extinction;
+    medium.sigma_a = (1.0f - albedo) * extinction;
 }
 
 void parse_phase(const Field& field, Medium& medium) {
@@ -116,14 +140,14 @@ void parse_phase(const Field& field, Medium& medium) {
 
 void parse_height_profile(const Field& field, Medium& medium) {
     medium.height_profile = true;
-    medium.base = field.at("base").number();
-    medium.falloff = field.at("falloff").positive();
+    medium.base = field.at("base").place();
+    medium.falloff = field.at("falloff").size();
 }
 
 void parse_noise(const Field& field, Medium& medium) {
     field.require_object({"scale", "amount", "seed"});
-    medium.noise_scale = field.at("scale").positive();
-    medium.noise_amount = field.at("amount").number("a number in [0, 1]", [](float v) { return v >= 0 && v <= 1; });
+    medium.noise_scale = field.at("scale").size();
+    medium.noise_amount = field.at("amount").share();
     if (field.has("seed")) {
         const Field seed = field.at("seed");
         constexpr int largest = 1 << 24;  // exact in the shader's float
@@ -134,15 +158,15 @@ void parse_noise(const Field& field, Medium& medium) {
 }
 
 void parse_bounded_shape(const Field& field, const ShapeRow& shape, Medium& medium) {
-    medium.center = field.at("center").vector<3>(&Field::number);
+    medium.center = field.at("center").vector<3>(&Field::place);
     medium.half_extent = shape.half_extent(field.at(shape.extent));
     if (field.has("rotation")) {
         const Field rotation = field.at("rotation");
-        const glm::vec4 q = rotation.vector<4>(&Field::number);
+        const glm::vec4 q = rotation.vector<4>(&Field::place);
         if (std::abs(glm::length(q) - 1) > 0.01f) rotation.fail("a unit quaternion [x, y, z, w]");
         medium.rotation = glm::normalize(glm::quat(q.w, q.x, q.y, q.z));
     }
-    if (field.has("softness")) medium.softness = field.at("softness").not_negative();
+    if (field.has("softness")) medium.softness = field.at("softness").width();
     if (field.has("noise")) parse_noise(field.at("noise"), medium);
     if (field.has("height")) {
         field.at("height").require_object({"base", "falloff"});
@@ -158,8 +182,7 @@ Medium parse_medium(const Field& field) {
     if (is_bounded(medium) && field.has("phase"))
         throw Error(field.where + ".phase: only the shapes global and height have one");
     require_known_keys(field, shape);
-    medium.sigma_s = field.at("scattering").vector<3>(&Field::coefficient);
-    if (field.has("absorption")) medium.sigma_a = field.at("absorption").vector<3>(&Field::coefficient);
+    parse_coefficients(field, medium);
     if (field.has("emission")) medium.emission = field.at("emission").vector<3>(&Field::radiance);
     if (field.has("anisotropy"))
         medium.anisotropy =
@@ -189,6 +212,8 @@ Aabb world_bounds(const Medium& bounded) {
 std::vector<Medium> parse_media(const Json& json, const std::string& where) {
     const Field root{json, where};
     if (json.is_object()) {
+        if (json.contains("shape"))
+            throw Error(where + ": one medium given, a list of media expected: put it in [ ]");
         root.require_object({"media"});
         if (!json.contains("media")) throw Error(where + ": \"media\" is missing");
     }

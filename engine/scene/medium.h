@@ -39,8 +39,9 @@ struct Medium {
 [[nodiscard]] Aabb world_bounds(const Medium& bounded);
 
 /// Parses {"media": [...]} or the bare list. `where` starts each message: path and index ("fog.json:
-/// media[2].radius: …"). Unknown keys, wrong types, non-finite numbers, coefficients outside 0 to 1e6 1/m, |g| >=
-/// 1, sizes <= 0 are errors; so is a "phase" other than "mie" (particles, the phase function of the settings) and
+/// media[2].radius: …"). `albedo` and `extinction` may stand for scattering and absorption. Unknown keys, wrong
+/// types, non-finite numbers, coefficients outside 0 to 1e6 1/m, |g| >= 1, places beyond 1e9 m, sizes outside 1e-6
+/// to 1e9 m are errors; so is a "phase" other than "mie" (particles, the phase function of the settings) and
 /// "rayleigh" (air: no anisotropy, only in media that fill space). A `grid` is an error that says grid media are
 /// not supported by this version.
 [[nodiscard]] std::vector<Medium> parse_media(const nlohmann::json& json, const std::string& where);

@@ -73,6 +73,15 @@ TEST(Medium, Defaults) {
     EXPECT_EQ(medium.rotation, glm::quat(1, 0, 0, 0));
 }
 
+TEST(Medium, AlbedoAndExtinctionStandForScatteringAndAbsorption) {
+    json medium = ball();
+    medium.erase("scattering");
+    medium["albedo"] = {1, 0.75, 0};
+    medium["extinction"] = {2, 4, 8};
+    EXPECT_EQ(parse_one(medium).sigma_s, glm::vec3(2, 3, 0));
+    EXPECT_EQ(parse_one(medium).sigma_a, glm::vec3(0, 1, 8));
+}
+
 TEST(Medium, AirHasRayleighsPhase) {
     const json air{
         {"shape", "height"}, {"scattering", {1, 2, 3}}, {"base", 0}, {"falloff", 8000}, {"phase", "rayleigh"}};
@@ -118,6 +127,12 @@ TEST(Medium, EveryMistakeNamesFileIndexAndKey) {
         {with(ball(), "scattering", {1e39, 1, 1}), ".scattering[0]"},
         {with(ball(), "absorption", {0, 0, -0.1}), ".absorption[2]"},
         {with(ball(), "emission", {INFINITY, 0, 0}), ".emission[0]"},
+        {with(with(ball(), "albedo", {1, 1, 1}), "extinction", {1, 1, 1}), ".scattering: given beside albedo"},
+        {with(without(ball(), "scattering"), "albedo", {1, 1, 1}), "\"extinction\" is missing"},
+        {with(without(ball(), "scattering"), "extinction", {1, 1, 1}), "\"albedo\" is missing"},
+        {with(with(without(ball(), "scattering"), "albedo", {1, 1.1, 1}), "extinction", {1, 1, 1}), ".albedo[1]"},
+        {with(with(without(ball(), "scattering"), "albedo", {1, 1, 1}), "extinction", {1, -1, 1}),
+         ".extinction[1]"},
         {with(ball(), "anisotropy", 1), ".anisotropy"},
         {with(ball(), "anisotropy", -1), ".anisotropy"},
         {with(ball(), "anisotropy", true), ".anisotropy"},
@@ -134,6 +149,11 @@ TEST(Medium, EveryMistakeNamesFileIndexAndKey) {
         {with(box(), "rotation", {0, 0, 0, 0}), ".rotation"},
         {with(box(), "rotation", {0, 0, 1}), ".rotation"},
         {with(ball(), "softness", -1), ".softness"},
+        {with(ball(), "softness", 1e30), ".softness"},
+        {with(ball(), "center", {0, 1e30, 0}), ".center[1]"},
+        {with(ball(), "radius", 1e-30), ".radius"},
+        {with(ball(), "radius", 1e30), ".radius"},
+        {with(ball(), "height", {{"base", -1e30}, {"falloff", 1}}), ".height.base"},
         {with(ball(), "noise", 1), ".noise"},
         {with(ball(), "noise", {{"scale", 0}, {"amount", 0.5}}), ".noise.scale"},
         {with(ball(), "noise", {{"scale", 1}, {"amount", 1.5}}), ".noise.amount"},
@@ -171,6 +191,13 @@ TEST_F(MediumFile, LoadsAndNamesWhatFails) {
     const auto garbage = write("garbage.json", "{\"media\": [");
     EXPECT_THAT([&] { (void)load_media(garbage); },
                 ThrowsMessage<Error>(AllOf(HasSubstr("garbage.json"), HasSubstr("line 1"), Not(HasSubstr("\n")))));
+    const auto deep = write("deep.json", std::string(100'000, '['));
+    EXPECT_THAT(
+        [&] { (void)load_media(deep); },
+        ThrowsMessage<Error>(AllOf(HasSubstr("deep.json: the JSON is nested deeper"), Not(HasSubstr("\n")))));
+    const auto one = write("one.json", ball().dump());
+    EXPECT_THAT([&] { (void)load_media(one); },
+                ThrowsMessage<Error>(HasSubstr("one.json: one medium given, a list of media expected")));
     const auto bad = write("bad.json", json{{"media", {{{"shape", "box\nx"}}}}}.dump());
     EXPECT_THAT([&] { (void)load_media(bad); },
                 ThrowsMessage<Error>(AllOf(HasSubstr("bad.json: media[0].shape"), Not(HasSubstr("\n")))));
