@@ -43,7 +43,8 @@ bool blocks(const Query& query, const Triangle& triangle) {
     const bool front = hit.counter_clockwise != triangle.mirrored;
     if (query.sees == Geometry::Impl::Sees::eye && !front && !material.double_sided) return false;
     return !material.alpha_mask ||
-           mask_alpha(query.geometry->scene, material, query.geometry->uv(triangle, hit.barycentric)) >=
+           query.geometry->alpha(triangle, hit.barycentric) *
+                   mask_alpha(query.geometry->scene, material, query.geometry->uv(triangle, hit.barycentric)) >=
                material.alpha_cutoff;
 }
 
@@ -92,8 +93,11 @@ Geometry::Impl::Impl(const Scene& from, bool with_shadows) : scene(from), shadow
     for (const Triangle& triangle : triangles) {
         if (!triangle.cast_shadow) continue;
         const Material& m = material(triangle);
-        Caster caster{triangle.corner, {}, m.alpha_mask ? &m : nullptr};
-        for (std::size_t i = 0; i < 3; ++i) caster.uv[i] = vertex(triangle, i).uv;
+        Caster caster{triangle.corner, {}, {}, m.alpha_mask ? &m : nullptr};
+        for (std::size_t i = 0; i < 3; ++i) {
+            caster.uv[i] = vertex(triangle, i).uv;
+            caster.alpha[static_cast<int>(i)] = vertex(triangle, i).color.a;
+        }
         list.push_back(caster);
     }
     casters = std::make_unique<SliceTree>(scene, std::move(list), center);
@@ -104,7 +108,10 @@ void Geometry::Impl::collect_triangles() {
     for (std::size_t n = 0; n < scene.nodes.size(); ++n) {
         const Node& node = scene.nodes[n];
         const glm::dmat4 world(node.world);
-        const bool mirrored = glm::determinant(glm::dmat3(world)) < 0;
+        const glm::dmat3 linear(world);
+        const double sizes = glm::length(linear[0]) * glm::length(linear[1]) * glm::length(linear[2]);
+        // A transform that flattens mirrors nothing, whatever the sign that rounding leaves.
+        const bool mirrored = glm::determinant(linear) < -1e-6 * sizes;
         for (const int m : node.meshes) {
             const Mesh& mesh = scene.meshes[static_cast<std::size_t>(m)];
             if (scene.materials[static_cast<std::size_t>(mesh.material)].alpha_blend) continue;
@@ -162,6 +169,11 @@ void Geometry::Impl::build_embree() {
 dvec2 Geometry::Impl::uv(const Triangle& triangle, dvec2 barycentric) const {
     return (1 - barycentric.x - barycentric.y) * dvec2(vertex(triangle, 0).uv) +
            barycentric.x * dvec2(vertex(triangle, 1).uv) + barycentric.y * dvec2(vertex(triangle, 2).uv);
+}
+
+double Geometry::Impl::alpha(const Triangle& triangle, dvec2 barycentric) const {
+    const dvec3 corner(vertex(triangle, 0).color.a, vertex(triangle, 1).color.a, vertex(triangle, 2).color.a);
+    return glm::dot(corner, dvec3(1 - barycentric.x - barycentric.y, barycentric));
 }
 
 std::optional<Geometry::Hit> Geometry::Impl::first_hit(dvec3 origin, dvec3 direction, double begin, double end,

@@ -43,6 +43,8 @@ struct Geometry::Impl {
         return mesh.vertices[mesh.indices[triangle.first_index + corner]];
     }
     [[nodiscard]] dvec2 uv(const Triangle& triangle, dvec2 barycentric) const;
+    /// Of the vertices' colours.
+    [[nodiscard]] double alpha(const Triangle& triangle, dvec2 barycentric) const;
 
     enum class Sees { eye, light };
     /// The first triangle that `sees` does not see through, with begin < distance < end; exact in distance.

@@ -9,13 +9,9 @@ namespace {
 
 constexpr double least_radius = 1e-3;  ///< m: 1/d² has no finite integral through a point
 
-const glm::mat4& world_of(const Scene& scene, const Light& light) {
-    return scene.nodes[static_cast<std::size_t>(light.node)].world;
-}
-
 /// A light shines along its node's -Z.
-dvec3 axis_of(const glm::mat4& world) {
-    return -glm::normalize(dvec3(world[2]));
+dvec3 axis_of(const glm::mat4& pose) {
+    return -glm::normalize(dvec3(pose[2]));
 }
 
 bool shines(const Light& light) {
@@ -32,7 +28,7 @@ std::vector<Sun> scene_suns(const Scene& scene) {
     std::vector<Sun> suns;
     for (const Light& light : scene.lights)
         if (light.type == LightType::sun && shines(light))
-            suns.push_back({-axis_of(world_of(scene, light)), dvec3(light.intensity), light.shadow});
+            suns.push_back({-axis_of(node_pose(scene, light.node)), dvec3(light.intensity), light.shadow});
     return suns;
 }
 
@@ -40,18 +36,18 @@ std::vector<Lamp> scene_lamps(const Scene& scene) {
     std::vector<Lamp> lamps;
     for (const Light& light : scene.lights) {
         if (light.type == LightType::sun || !shines(light)) continue;
-        const glm::mat4& world = world_of(scene, light);
+        const glm::mat4 pose = node_pose(scene, light.node);
         const double cos_inner = std::cos(static_cast<double>(light.inner_cone));
         const double cos_outer = std::cos(static_cast<double>(light.outer_cone));
-        lamps.push_back({.position = dvec3(world[3]),
-                         .axis = axis_of(world),
+        lamps.push_back({.position = dvec3(pose[3]),
+                         .axis = axis_of(pose),
                          .intensity = dvec3(light.intensity),
                          .range = light.range > 0 ? light.range : std::numeric_limits<double>::infinity(),
                          .radius = std::max<double>(light.radius, least_radius),
                          .spot = light.type == LightType::spot,
                          .shadow = light.shadow,
                          .cos_outer = cos_outer,
-                         .cone_scale = 1 / std::max(0.001, cos_inner - cos_outer)});
+                         .cone_scale = 1 / std::max(0.001 * (1 - cos_outer), cos_inner - cos_outer)});
     }
     return lamps;
 }

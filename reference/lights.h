@@ -26,7 +26,8 @@ struct Lamp {
 
     /// Of the intensity, per m²: (1 - (d / range)^4) / max(d², radius²), 0 from the range on.
     [[nodiscard]] double attenuation(double distance_squared) const;
-    /// clamp((cos - cos_outer) * scale, 0, 1)², scale = 1 / max(0.001, cos_inner - cos_outer); 1 for a point lamp.
+    /// clamp((cos - cos_outer) * scale, 0, 1)², scale = 1 / (cos_inner - cos_outer), of which a thousandth of
+    /// 1 - cos_outer is the least; 1 for a point lamp.
     [[nodiscard]] double cone(double cos_angle) const;
     /// Illuminance at an offset from the lamp on a plane that faces it, lux.
     [[nodiscard]] dvec3 illuminance(dvec3 offset) const;

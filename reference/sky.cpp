@@ -40,7 +40,7 @@ Sky::Sky(const Scene& scene, double factor) : factor_(factor) {
     const auto index = scene.sun();
     if (index) {
         const Light& sun = scene.lights[*index];
-        to_sun_ = glm::normalize(dvec3(scene.nodes[static_cast<std::size_t>(sun.node)].world[2]));
+        to_sun_ = glm::normalize(dvec3(node_pose(scene, sun.node)[2]));
         illuminance_ = sun.intensity;
     }
     if (factor == 0) return;  // the table is slow to fill

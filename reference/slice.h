@@ -15,6 +15,7 @@ namespace tyndall::reference {
 struct Caster {
     std::array<dvec3, 3> corner;
     std::array<dvec2, 3> uv;
+    dvec3 alpha;           ///< of the corners' colours
     const Material* mask;  ///< null: opaque
 };
 

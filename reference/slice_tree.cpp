@@ -226,8 +226,9 @@ std::vector<Interval> SliceTree::dark(const Slice& slice) const {
         const auto after = std::ranges::upper_bound(opaque, whole.begin, {}, &Interval::begin);
         if (after != opaque.begin() && std::prev(after)->end >= whole.end) continue;
         const auto uv = [&](dvec3 w) { return w.x * caster->uv[0] + w.y * caster->uv[1] + w.z * caster->uv[2]; };
+        const auto point = [&](dvec3 w) { return MaskPoint{uv(w), glm::dot(w, caster->alpha)}; };
         for (const Interval& part :
-             opaque_parts(scene_, *caster->mask, uv(shadow.weights[0]), uv(shadow.weights[1]), shadow.part))
+             opaque_parts(scene_, *caster->mask, point(shadow.weights[0]), point(shadow.weights[1]), shadow.part))
             add(shadow.on_ray(part, slice));
     }
     merge(found);

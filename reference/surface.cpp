@@ -1,5 +1,8 @@
 #include "reference/surface.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "reference/geometry_impl.h"
 #include "reference/surface_texture.h"
 
@@ -16,10 +19,14 @@ struct Interpolated {
     dvec3 normal{0}, tangent{0};
     double bitangent_sign = 0;
     dvec2 uv{0};
+    dvec4 color{0};
 };
 
 Interpolated interpolate(const Geometry::Impl& geometry, const Triangle& triangle, dvec2 barycentric) {
-    const glm::dmat3 world(geometry.scene.nodes[triangle.node].world);
+    glm::dmat3 world(geometry.scene.nodes[triangle.node].world);
+    double largest = 0;
+    for (int i = 0; i < 9; ++i) largest = std::max(largest, std::abs(world[i / 3][i % 3]));
+    world /= largest;  // its size does not matter to directions
     // Carries normals for any scale; mirroring turns it over, and is turned back.
     const glm::dmat3 cofactor(glm::cross(world[1], world[2]), glm::cross(world[2], world[0]),
                               glm::cross(world[0], world[1]));
@@ -32,12 +39,13 @@ Interpolated interpolate(const Geometry::Impl& geometry, const Triangle& triangl
         at.tangent += weight[i] * (world * dvec3(glm::vec3(vertex.tangent)));
         at.bitangent_sign += weight[i] * handedness * vertex.tangent.w;
         at.uv += weight[i] * dvec2(vertex.uv);
+        at.color += weight[i] * dvec4(vertex.color);
     }
     return at;
 }
 
 dvec3 shading_normal(const Scene& scene, const Material& material, const Interpolated& at, dvec3 geometric) {
-    const dvec3 n = glm::length(at.normal) > 0 ? glm::normalize(at.normal) : geometric;
+    const dvec3 n = glm::length(at.normal) > 1e-6 ? glm::normalize(at.normal) : geometric;
     if (material.normal_picture < 0) return n;
     // The scenes' convention: 128 of 255 is flat.
     dvec3 bump = (255.0 * dvec3(texture(scene, material.normal_picture, at.uv, false)) - 128.0) / 127.0;
@@ -67,8 +75,8 @@ Surface surface_at(const Scene& scene, const Geometry& geometry, const Geometry:
     const double side = hit.front ? 1 : -1;
     s.normal = side * shading_normal(scene, material, at, side * s.geometric_normal);
 
-    s.base_color =
-        dvec3(texture(scene, material.base_color_picture, at.uv, true)) * dvec3(glm::vec3(material.base_color));
+    s.base_color = dvec3(texture(scene, material.base_color_picture, at.uv, true)) *
+                   dvec3(glm::vec3(material.base_color)) * dvec3(at.color);
     const dvec4 metallic_roughness = texture(scene, material.metallic_roughness_picture, at.uv, false);
     s.roughness = metallic_roughness.g * material.roughness;
     s.metallic = metallic_roughness.b * material.metallic;

@@ -27,17 +27,16 @@ struct Taps {
     double weight;
 };
 
-Taps taps(double coordinate, int size) {
-    const double x = coordinate * size - 0.5, cell = std::floor(x);
-    const double wrapped = cell - size * std::floor(cell / size);
-    // Rounding of enormous coordinates may leave the range.
-    const auto first = static_cast<std::size_t>(std::clamp(wrapped, 0.0, size - 1.0));
-    return {{first, (first + 1) % static_cast<std::size_t>(size)}, x - cell};
+Taps taps(double coordinate, int size, Wrap wrap, bool nearest) {
+    const double x = coordinate * size - (nearest ? 0 : 0.5), cell = std::floor(x);
+    return {{texel_of(cell, size, wrap), texel_of(cell + 1, size, wrap)}, nearest ? 0 : x - cell};
 }
 
 template <class Texel>
 auto bilinear(const Picture& picture, dvec2 uv, Texel texel) {
-    const Taps x = taps(uv.x, picture.size.x), y = taps(uv.y, picture.size.y);
+    const Sampling& how = picture.sampling;
+    const Taps x = taps(uv.x, picture.size.x, how.u, how.nearest),
+               y = taps(uv.y, picture.size.y, how.v, how.nearest);
     const auto at = [&](std::size_t i, std::size_t j) {
         const std::size_t row = y.texel[j] * static_cast<std::size_t>(picture.size.x);
         return texel(&picture.rgba[(row + x.texel[i]) * 4]);
@@ -47,6 +46,17 @@ auto bilinear(const Picture& picture, dvec2 uv, Texel texel) {
 }
 
 }  // namespace
+
+std::size_t texel_of(double place, int size, Wrap wrap) {
+    double texel = place;
+    if (wrap != Wrap::clamp) {
+        const double period = wrap == Wrap::mirror ? 2.0 * size : size;
+        texel = place - period * std::floor(place / period);
+        if (texel >= size) texel = period - 1 - texel;
+    }
+    // Rounding of enormous places may leave the range.
+    return static_cast<std::size_t>(std::clamp(texel, 0.0, size - 1.0));
+}
 
 dvec4 sample(const Picture& picture, dvec2 uv, bool srgb) {
     static const std::array<double, 256> linear = decode_table(false), decoded = decode_table(true);

@@ -9,8 +9,11 @@ namespace tyndall::reference {
 using glm::dvec2;
 using glm::dvec4;
 
-/// Bilinear look-up in the full-resolution picture, repeating, texel centres at (i + 0.5) / size. `srgb`: the
-/// colour is decoded before it is filtered; alpha never is. 0..1.
+/// The texel of a row or column of `size` that a place beyond its ends, too, shows.
+[[nodiscard]] std::size_t texel_of(double place, int size, Wrap wrap);
+
+/// Look-up in the full-resolution picture, bilinear or nearest as its sampling says, texel centres at
+/// (i + 0.5) / size. `srgb`: the colour is decoded before it is filtered; alpha never is. 0..1.
 [[nodiscard]] dvec4 sample(const Picture& picture, dvec2 uv, bool srgb);
 
 /// The alpha that a mask's cutoff is compared with: factor times the base colour texture's.

@@ -154,7 +154,7 @@ class Game {
     void go_to(const std::string& place) {
         const Camera* camera = session_.scene.find_camera(place);
         if (camera == nullptr) return;
-        const glm::mat4& pose = session_.scene.nodes[camera->node].world;
+        const glm::mat4 pose = node_pose(session_.scene, camera->node);
         player_.place(glm::vec3(pose[3]), -glm::vec3(pose[2]));
         player_.set_flying(true);
         session_.renderer->invalidate_history();

@@ -104,9 +104,10 @@ Player::Player(const Scene& scene) : world_(std::make_unique<World>(scene)) {
     if (!scene.bounds.empty()) lowest_ = scene.bounds.min.y - fall_margin;
     if (const Node* start = scene.find_node("player_start")) {
         const glm::vec3 feet(start->world[3]);
-        place(feet + glm::vec3(0, eye_height, 0), -glm::vec3(start->world[2]));
+        place(feet + glm::vec3(0, eye_height, 0),
+              -glm::vec3(node_pose(scene, static_cast<int>(start - scene.nodes.data()))[2]));
     } else if (!scene.cameras.empty()) {
-        const glm::mat4& camera = scene.nodes[scene.cameras.front().node].world;
+        const glm::mat4 camera = node_pose(scene, scene.cameras.front().node);
         place(glm::vec3(camera[3]), -glm::vec3(camera[2]));
         flying_ = true;
     }

@@ -93,7 +93,7 @@ View camera_view(const Scene& scene, const std::string& name, float aspect) {
         throw UsageError(
             fmt::format("camera {}: not in {}, which has {}", name, scene.path.string(), fmt::join(names, ", ")));
     }
-    return make_view(scene.nodes[camera->node].world, camera->yfov, camera->znear, aspect);
+    return make_view(node_pose(scene, camera->node), camera->yfov, camera->znear, aspect);
 }
 
 void check_picture_name(const std::string& path) {

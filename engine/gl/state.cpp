@@ -46,7 +46,7 @@ void apply(const DrawState& state) {
     apply_blend(state.blend);
     enable(GL_CULL_FACE, state.cull != GL_NONE);
     if (state.cull != GL_NONE) glCullFace(state.cull);
-    glFrontFace(GL_CCW);
+    glFrontFace(state.clockwise ? GL_CW : GL_CCW);
     glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
     const GLboolean color = state.color_write ? GL_TRUE : GL_FALSE;
     glColorMask(color, color, color, color);

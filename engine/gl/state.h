@@ -15,7 +15,8 @@ struct DrawState {
     bool depth_test = false;
     bool depth_write = false;
     GLenum depth_func = GL_GEQUAL;
-    GLenum cull = GL_NONE;  ///< GL_NONE, GL_BACK, GL_FRONT
+    GLenum cull = GL_NONE;   ///< GL_NONE, GL_BACK, GL_FRONT
+    bool clockwise = false;  ///< front faces are wound so: those of mirrored instances
     Blend blend = Blend::none;
     bool depth_clamp = false;
     float slope_bias = 0;     ///< glPolygonOffset factor, 0 = off

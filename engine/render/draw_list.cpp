@@ -86,9 +86,10 @@ void DrawList::build(const GpuScene& scene, std::span<const Frustum> frusta, Fil
             if (depth[i] < 0) continue;
             const Instance& instance = scene.instances()[boxes.instance[i]];
             const GpuScene::MeshRange& range = scene.range(instance.mesh);
-            if (view.batches.empty() || view.batches.back().material != instance.material)
-                view.batches.push_back({instance.material, static_cast<std::uint32_t>(commands.size()), 0});
-            if (instance.mesh != last_mesh) {
+            const Surfaces surfaces{instance.material, instance.mirrored};
+            const bool new_batch = view.batches.empty() || view.batches.back().surfaces != surfaces;
+            if (new_batch) view.batches.push_back({surfaces, static_cast<std::uint32_t>(commands.size()), 0});
+            if (new_batch || instance.mesh != last_mesh) {
                 commands.push_back({range.index_count, 0, range.first_index, range.base_vertex,
                                     static_cast<std::uint32_t>(visible.size())});
                 ++view.batches.back().command_count;
@@ -104,14 +105,14 @@ void DrawList::build(const GpuScene& scene, std::span<const Frustum> frusta, Fil
     visible_.assign(std::span<const std::uint32_t>(visible), "visible instances");
 }
 
-void DrawList::draw(const GpuScene& scene, const std::function<bool(int)>& bind_material, int view) const {
+void DrawList::draw(const GpuScene& scene, const std::function<bool(Surfaces)>& bind, int view) const {
     const ViewBatches& batches = views_.at(static_cast<std::size_t>(view));
     if (batches.batches.empty()) return;
     scene.bind();
     visible_.bind(GL_SHADER_STORAGE_BUFFER, BINDING_VISIBLE_INSTANCES);
     glBindBuffer(GL_DRAW_INDIRECT_BUFFER, commands_.id());
     for (const Batch& batch : batches.batches) {
-        if (!bind_material(batch.material)) continue;
+        if (!bind(batch.surfaces)) continue;
         const std::uintptr_t offset = batch.first_command * sizeof(DrawElementsIndirectCommand);
         glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, reinterpret_cast<const void*>(offset),
                                     static_cast<GLsizei>(batch.command_count), 0);

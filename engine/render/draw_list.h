@@ -9,7 +9,8 @@
 
 namespace tyndall {
 
-/// Indirect draws of the instances that meet a frustum: one multi-draw per material, equal meshes instanced.
+/// Indirect draws of the instances that meet a frustum: one multi-draw per material and winding,
+/// equal meshes instanced.
 /// Shaders find the instance as visible_instances[gl_BaseInstance + gl_InstanceID] (BINDING_VISIBLE_INSTANCES, with
 /// ARB_shader_draw_parameters).
 class DrawList {
@@ -20,15 +21,21 @@ class DrawList {
     /// Several views at once (shadow tiles): view i's commands are drawn by draw(i, …).
     void build(const GpuScene& scene, std::span<const Frustum> frusta, Filter filter);
 
-    /// Calls `bind_material(material index)` before each material's multi-draw; false leaves it out.
-    void draw(const GpuScene& scene, const std::function<bool(int)>& bind_material, int view = 0) const;
+    /// What a multi-draw has in common.
+    struct Surfaces {
+        int material;
+        bool mirrored;  ///< Instance::mirrored
+        bool operator==(const Surfaces&) const = default;
+    };
+    /// Calls `bind` before each multi-draw; false leaves it out.
+    void draw(const GpuScene& scene, const std::function<bool(Surfaces)>& bind, int view = 0) const;
     [[nodiscard]] std::size_t instance_count(int view = 0) const;
     [[nodiscard]] std::size_t triangle_count(int view = 0) const;
     [[nodiscard]] std::size_t draw_call_count(int view = 0) const;
 
   private:
     struct Batch {
-        int material;
+        Surfaces surfaces;
         std::uint32_t first_command, command_count;
     };
     struct ViewBatches {

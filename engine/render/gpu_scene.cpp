@@ -11,7 +11,7 @@
 namespace tyndall {
 namespace {
 
-static_assert(sizeof(Vertex) == 48, "interleaved as the attributes below say");
+static_assert(sizeof(Vertex) == 64, "interleaved as the attributes below say");
 
 gl::Texture one_texel(std::array<std::uint8_t, 4> rgba, const std::string& label) {
     gl::Texture texture({gl::TextureKind::d2, GL_RGBA8, {1, 1, 1}, 1}, label);
@@ -19,10 +19,13 @@ gl::Texture one_texel(std::array<std::uint8_t, 4> rgba, const std::string& label
     return texture;
 }
 
-void set_sampling(GLuint texture, float anisotropy) {
-    for (const GLenum axis : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T}) glTextureParameteri(texture, axis, GL_REPEAT);
-    glTextureParameteri(texture, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
-    if (GLAD_GL_EXT_texture_filter_anisotropic == 0) return;
+void set_sampling(GLuint texture, const Sampling& sampling, float anisotropy) {
+    glTextureParameteri(texture, GL_TEXTURE_WRAP_S, static_cast<GLint>(sampling.u));
+    glTextureParameteri(texture, GL_TEXTURE_WRAP_T, static_cast<GLint>(sampling.v));
+    glTextureParameteri(texture, GL_TEXTURE_MAG_FILTER, sampling.nearest ? GL_NEAREST : GL_LINEAR);
+    glTextureParameteri(texture, GL_TEXTURE_MIN_FILTER, static_cast<GLint>(sampling.minification));
+    const bool trilinear = sampling.minification == GL_LINEAR_MIPMAP_LINEAR && !sampling.nearest;
+    if (!trilinear || GLAD_GL_EXT_texture_filter_anisotropic == 0) return;
     float most = 1;
     glGetFloatv(GL_MAX_TEXTURE_MAX_ANISOTROPY_EXT, &most);
     glTextureParameterf(texture, GL_TEXTURE_MAX_ANISOTROPY_EXT, std::min(most, anisotropy));
@@ -73,6 +76,7 @@ void GpuScene::upload_meshes(const Scene& scene) {
     vertex_array_.attribute(1, 0, 3, GL_FLOAT, offsetof(Vertex, normal));
     vertex_array_.attribute(2, 0, 4, GL_FLOAT, offsetof(Vertex, tangent));
     vertex_array_.attribute(3, 0, 2, GL_FLOAT, offsetof(Vertex, uv));
+    vertex_array_.attribute(4, 0, 4, GL_FLOAT, offsetof(Vertex, color));
     vertex_array_.index_buffer(indices_.id());
 }
 
@@ -87,7 +91,7 @@ GLuint GpuScene::texture(const Scene& scene, int picture_index, bool srgb, float
         texture.upload(0, GL_RGBA, GL_UNSIGNED_BYTE, picture.rgba.data());
         texture.generate_mipmaps();
         if (coverage_cutoff > 0) preserve_coverage(texture, picture, coverage_cutoff);
-        set_sampling(texture.id(), anisotropy_);
+        set_sampling(texture.id(), picture.sampling, anisotropy_);
     }
     return texture.id();
 }
@@ -125,10 +129,11 @@ void GpuScene::place_instances(const Scene& scene) {
             const Mesh& from = scene.meshes[static_cast<std::size_t>(mesh)];
             if (from.indices.empty()) continue;
             instances_.push_back({mesh, from.material, static_cast<int>(n), node.cast_shadow, node.dynamic,
-                                  transformed(from.bounds, node.world)});
+                                  transformed(from.bounds, node.world), mirrors(node.world)});
         }
     }
-    std::ranges::stable_sort(instances_, {}, [](const Instance& i) { return std::pair(i.material, i.mesh); });
+    std::ranges::stable_sort(instances_, {},
+                             [](const Instance& i) { return std::tuple(i.material, i.mirrored, i.mesh); });
     for (std::size_t i = 0; i < instances_.size(); ++i) {
         models_.push_back(scene.nodes[static_cast<std::size_t>(instances_[i].node)].world);
         if (instances_[i].dynamic) dynamic_.push_back(static_cast<int>(i));
@@ -145,6 +150,7 @@ void GpuScene::update(const Scene& scene) {
         glm::mat4& model = models_[static_cast<std::size_t>(index)];
         previous_models_[static_cast<std::size_t>(index)] = std::exchange(model, world);
         instance.bounds = transformed(scene.meshes[static_cast<std::size_t>(instance.mesh)].bounds, world);
+        instance.mirrored = mirrors(world);
     }
     write_dynamic(transforms_, models_);
 }

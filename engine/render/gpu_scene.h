@@ -13,25 +13,29 @@
 
 namespace tyndall {
 
-/// One mesh placed in the world. Sorted by material, then mesh, so that equal meshes draw instanced.
+/// One mesh placed in the world. Sorted by material, then as mirrored or not, then mesh, so that equal meshes draw
+/// instanced.
 struct Instance {
     int mesh;
     int material;
     int node;
     bool cast_shadow;
     bool dynamic;
-    Aabb bounds;  ///< world
+    Aabb bounds;    ///< world
+    bool mirrored;  ///< its front faces are wound clockwise
 };
 
 /// The scene on the GPU: one vertex and one index buffer, a texture per picture and colour space, transforms per
-/// instance. Textures carry their own sampling (trilinear, anisotropic, repeat): bind them with sampler 0. Those of
-/// masked materials keep their coverage at every mip level, so that foliage does not thin out with distance.
+/// instance. Textures carry their own sampling (the picture's; anisotropic where that is trilinear): bind them with
+/// sampler 0. Those of masked materials keep their coverage at every mip level, so that foliage does not thin out
+/// with distance.
 class GpuScene {
   public:
     /// Throws Error for a picture larger than the driver's limit.
     /// `anisotropy` of the material textures' filter, 1 to the driver's limit.
     explicit GpuScene(const Scene& scene, float anisotropy = 4);
-    /// Uploads the transforms of dynamic instances and refreshes their bounds. Once a frame: those before are kept.
+    /// Uploads the transforms of dynamic instances and refreshes their bounds and whether they are mirrored. Once a
+    /// frame: those before are kept.
     void update(const Scene& scene);
     /// Something opaque whose bounds meet `frustum` had another transform at the update before.
     [[nodiscard]] bool has_moved(const Frustum& frustum) const;
@@ -53,8 +57,8 @@ class GpuScene {
     };
     [[nodiscard]] const GpuMaterial& material(int index) const { return materials_[index]; }
 
-    /// Attribute 0 position, 1 normal, 2 tangent, 3 uv; instance transforms at BINDING_INSTANCES (mat4 model per
-    /// instance, in the order of instances()).
+    /// Attribute 0 position, 1 normal, 2 tangent, 3 uv, 4 colour; instance transforms at BINDING_INSTANCES (mat4
+    /// model per instance, in the order of instances()).
     void bind() const;
     /// The transforms at the update before, in the same form, at BINDING_PREVIOUS_INSTANCES. Uploads them.
     void bind_previous();

@@ -6,8 +6,8 @@
 namespace tyndall {
 namespace {
 
-const glm::mat4& world_of(const Scene& scene, std::size_t light) {
-    return scene.nodes[static_cast<std::size_t>(scene.lights[light].node)].world;
+glm::mat4 world_of(const Scene& scene, std::size_t light) {
+    return node_pose(scene, scene.lights[light].node);
 }
 
 }  // namespace
@@ -22,7 +22,7 @@ std::vector<Lamp> find_lamps(const Scene& scene, const Frustum& frustum) {
     if (!suns.empty()) suns.erase(suns.begin());
     std::ranges::sort(suns);
     for (const std::size_t sun : suns) {
-        const glm::mat4& world = world_of(scene, sun);
+        const glm::mat4 world = world_of(scene, sun);
         lamps.push_back({.light = sun,
                          .position = sun_position(world),
                          .range = sun_range,
@@ -32,12 +32,12 @@ std::vector<Lamp> find_lamps(const Scene& scene, const Frustum& frustum) {
     for (std::size_t i = 0; i < scene.lights.size(); ++i) {
         const Light& light = scene.lights[i];
         if (light.type == LightType::sun || light.node < 0 || light.intensity == glm::vec3(0)) continue;
-        const glm::mat4& world = world_of(scene, i);
+        const glm::mat4 world = world_of(scene, i);
         const glm::vec3 position(world[3]);
         lamps.push_back({.light = i,
                          .position = position,
                          .range = light.range,
-                         .axis = -glm::normalize(glm::vec3(world[2])),
+                         .axis = -glm::vec3(world[2]),
                          .cos_outer = light.type == LightType::spot ? std::cos(light.outer_cone) : -1.0f,
                          .in_view = frustum.intersects_sphere(position, light.range)});
     }

@@ -13,20 +13,19 @@ TYNDALL_GLSL_END
 
 namespace tyndall {
 
-shared::GpuLight gpu_light(const Light& light, const glm::mat4& world, int first_tile) {
+shared::GpuLight gpu_light(const Light& light, const glm::mat4& pose, int first_tile) {
     if (light.type == LightType::sun)
-        return {.position_range = {sun_position(world), sun_range},
+        return {.position_range = {sun_position(pose), sun_range},
                 .intensity_radius = {light.intensity * (sun_distance * sun_distance), light.radius},
-                .direction_type = {-glm::normalize(glm::vec3(world[2])), static_cast<float>(LIGHT_SUN)},
+                .direction_type = {-glm::vec3(pose[2]), static_cast<float>(LIGHT_SUN)},
                 .cone_shadow = {0, 1, static_cast<float>(first_tile), 0}};
     TYNDALL_CHECK_LT(0.0f, light.range);
     const bool spot = light.type == LightType::spot;
     const glm::vec2 cone =
         spot ? glsl::spot_scale_offset(std::cos(light.inner_cone), std::cos(light.outer_cone)) : glm::vec2(0, 1);
-    return {.position_range = {glm::vec3(world[3]), light.range},
+    return {.position_range = {glm::vec3(pose[3]), light.range},
             .intensity_radius = {light.intensity, light.radius},
-            .direction_type = {-glm::normalize(glm::vec3(world[2])),
-                               static_cast<float>(spot ? LIGHT_SPOT : LIGHT_POINT)},
+            .direction_type = {-glm::vec3(pose[2]), static_cast<float>(spot ? LIGHT_SPOT : LIGHT_POINT)},
             .cone_shadow = {cone, static_cast<float>(first_tile), 0}};
 }
 
@@ -42,7 +41,7 @@ void LightSet::update(const Scene& scene, std::span<const Lamp> lamps) {
     scene_index_.clear();
     for (const Lamp& lamp : lamps) {
         const Light& light = scene.lights[lamp.light];
-        lights_.push_back(gpu_light(light, scene.nodes[static_cast<std::size_t>(light.node)].world, -1));
+        lights_.push_back(gpu_light(light, node_pose(scene, light.node), -1));
         scene_index_.push_back(lamp.light);
     }
 }

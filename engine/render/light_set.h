@@ -11,9 +11,9 @@
 
 namespace tyndall {
 
-/// A lamp or further sun as shaders read it. `world` is its node's; the lamp shines along -Z. `first_tile` is its
+/// A lamp or further sun as shaders read it. `pose` is its node's; the lamp shines along -Z. `first_tile` is its
 /// first tile in the shadow atlas, -1: no shadow.
-[[nodiscard]] shared::GpuLight gpu_light(const Light& light, const glm::mat4& world, int first_tile);
+[[nodiscard]] shared::GpuLight gpu_light(const Light& light, const glm::mat4& pose, int first_tile);
 
 /// Centre (world, m) and radius of the smallest sphere around what a lamp reaches: its range, within its cone.
 [[nodiscard]] glm::vec4 reach(const shared::GpuLight& light);

@@ -92,8 +92,7 @@ shared::FrameData Renderer::Impl::frame_data(const FrameContext& frame) const {
     data.viewport = glm::vec4(size, 1.0f / size);
     if (facts.has_sun) {
         const Light& sun = frame.scene.lights[*frame.scene.sun()];
-        const glm::mat4& world = frame.scene.nodes[static_cast<std::size_t>(sun.node)].world;
-        data.sun_direction = glm::vec4(-glm::normalize(glm::vec3(world[2])), 1);
+        data.sun_direction = glm::vec4(-glm::vec3(node_pose(frame.scene, sun.node)[2]), 1);
         data.sun_illuminance = glm::vec4(sun.intensity, 0);
     }
     data.exposure = glm::vec4(exposure_factor(frame.scene.exposure_ev100, frame.settings.exposure_bias),

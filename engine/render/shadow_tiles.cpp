@@ -93,15 +93,15 @@ std::vector<int> plan_tile_sizes(std::span<const TileDemand> demands, int size_m
     return sizes;
 }
 
-shared::ShadowTile make_shadow_tile(const Light& light, const glm::mat4& light_to_world, int face,
-                                    const AtlasTile& place, int atlas_size) {
-    const glm::vec3 position(light_to_world[3]);
+shared::ShadowTile make_shadow_tile(const Light& light, const glm::mat4& pose, int face, const AtlasTile& place,
+                                    int atlas_size) {
+    const glm::vec3 position(pose[3]);
     glm::vec3 axis(0);
     float tan_half = 1;
     if (light.type == LightType::point) {
         axis[face / 2] = face % 2 == 0 ? 1.0f : -1.0f;
     } else {
-        axis = -glm::normalize(glm::vec3(light_to_world[2]));
+        axis = -glm::vec3(pose[2]);
         tan_half = std::tan(std::clamp(light.outer_cone, 0.01f, widest_half_angle));
     }
     const auto side = static_cast<float>(place.size);

@@ -35,7 +35,7 @@ struct TileDemand {
 /// is wider than the cone or the face by SHADOW_TILE_BORDER texels, so that a filter at its rim reads drawn texels
 /// of this tile: that makes the seams of a cube disappear. Half angles beyond 80° are drawn to 80°, the rim's
 /// shadow is used outside.
-[[nodiscard]] shared::ShadowTile make_shadow_tile(const Light& light, const glm::mat4& light_to_world, int face,
+[[nodiscard]] shared::ShadowTile make_shadow_tile(const Light& light, const glm::mat4& pose, int face,
                                                   const AtlasTile& place, int atlas_size);
 
 /// The map of a further sun: `bounds`, and all that lies between them and the sun.

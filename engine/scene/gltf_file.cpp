@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "engine/core/files.h"
+#include "engine/scene/gltf_document.h"
 
 namespace tyndall::gltf {
 namespace {
@@ -53,21 +54,6 @@ std::string_view as_text(std::span<const std::uint8_t> bytes) {
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-/// The largest number of arrays and objects inside one another.
-int nesting_depth(std::string_view json) {
-    int depth = 0, deepest = 0;
-    bool in_string = false;
-    for (std::size_t i = 0; i < json.size(); ++i) {
-        const char c = json[i];
-        if (in_string && c == '\\') ++i;
-        if (c == '"') in_string = !in_string;
-        if (in_string) continue;
-        if (c == '[' || c == '{') deepest = std::max(deepest, ++depth);
-        if (c == ']' || c == '}') --depth;
-    }
-    return deepest;
-}
-
 double component(const std::uint8_t* p, int type, bool normalized) {
     const auto read = [&]<class T>(T value) {
         std::memcpy(&value, p, sizeof value);
@@ -109,9 +95,8 @@ std::string one_line(std::string text) {
 }
 
 GltfFile::GltfFile(std::filesystem::path path) : path_(std::move(path)) {
-    const Bytes bytes = read_bytes(path_);
-    const bool binary = as_text(bytes).starts_with("glTF");
-    check_container(bytes, binary);
+    const auto [bytes, binary] =
+        read_document(read_bytes(path_), [this](const std::string& what) { fail("{}", what); });
 
     SceneFolder folder{path_.parent_path().empty() ? "." : path_.parent_path(), {}};
     tinygltf::TinyGLTF parser;
@@ -131,28 +116,8 @@ GltfFile::GltfFile(std::filesystem::path path) : path_(std::move(path)) {
     if (!folder.first_error.empty()) fail("{}", folder.first_error);
     if (!parsed || !error.empty()) fail("not a valid glTF 2.0 file: {}", one_line(error));
     if (!model_.asset.version.starts_with("2.")) fail("glTF version {}, 2.0 expected", model_.asset.version);
-}
-
-/// tinygltf takes the length of the binary chunk on trust and walks extras recursively.
-void GltfFile::check_container(std::span<const std::uint8_t> bytes, bool binary) const {
-    if (bytes.size() > std::numeric_limits<std::uint32_t>::max()) fail("larger than 4 GiB");
-    std::string_view json = as_text(bytes);
-    if (binary) {
-        const auto word = [&](std::size_t offset) {
-            std::uint32_t value = 0;
-            if (offset + 4 <= bytes.size()) std::memcpy(&value, &bytes[offset], 4);
-            return std::size_t(value);
-        };
-        const std::size_t size = std::max(word(8), std::size_t(20)), json_end = 20 + word(12);
-        const std::size_t end = json_end < size ? json_end + 8 + word(json_end) : json_end;
-        if (size > bytes.size() || end > size)
-            fail("cut off or damaged: it has {} bytes, its header and chunks ask for {}", bytes.size(),
-                 std::max(size, end));
-        if (word(4) != 2) fail("binary glTF version {}, 2 expected", word(4));
-        json = json.substr(20, json_end - 20);
-    }
-    constexpr int deepest = 100;
-    if (nesting_depth(json) > deepest) fail("the JSON is nested deeper than {} levels", deepest);
+    const std::string& least = model_.asset.minVersion;
+    if (!least.empty() && least != "2.0") fail("asks for glTF {} at least, 2.0 is supported", least);
 }
 
 void GltfFile::check_extensions() const {
@@ -163,7 +128,7 @@ void GltfFile::check_extensions() const {
         if (!known(name)) fail("requires the extension {}, which is not supported", name);
     std::vector<std::string> ignored = model_.extensionsUsed;
     std::erase_if(ignored, known);
-    if (!ignored.empty()) spdlog::info("{}: extensions ignored: {}", path_.string(), fmt::join(ignored, ", "));
+    if (!ignored.empty()) skip("extensions ignored: {}", fmt::join(ignored, ", "));
 }
 
 float GltfFile::number(double value, const std::string& what, double min, double max) const {
@@ -173,9 +138,9 @@ float GltfFile::number(double value, const std::string& what, double min, double
     return result;
 }
 
-float GltfFile::number(const Json& value, const std::string& what, double min) const {
+float GltfFile::number(const Json& value, const std::string& what, double min, double max) const {
     if (!value.is_number()) fail("{}: a number expected", what);
-    return number(value.get<double>(), what, min);
+    return number(value.get<double>(), what, min, max);
 }
 
 bool GltfFile::boolean(const Json& value, const std::string& what) const {
@@ -218,8 +183,8 @@ std::vector<double> GltfFile::read(int index, int type, const std::string& name)
     if (bytes == 0) fail("{}: component type {} is not allowed", what, accessor.componentType);
     if (accessor.count == 0) fail("{}: has no elements", what);
     constexpr std::size_t most_without_data = std::size_t(1) << 24;
-    if (accessor.bufferView < 0 && (!accessor.sparse.isSparse || accessor.count > most_without_data))
-        fail("{}: has no buffer view", what);
+    if (accessor.bufferView < 0 && accessor.count > most_without_data)
+        fail("{}: {} elements and no buffer view, at most {} expected", what, accessor.count, most_without_data);
 
     const auto components = static_cast<std::size_t>(tinygltf::GetNumComponentsInType(static_cast<unsigned>(type)));
     const std::size_t size = components * bytes;

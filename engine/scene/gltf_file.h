@@ -10,6 +10,7 @@
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -36,10 +37,14 @@ class GltfFile {
     [[noreturn]] void fail(fmt::format_string<Args...> format, Args&&... args) const {
         throw Error(one_line(path_.string() + ": " + fmt::format(format, std::forward<Args>(args)...)));
     }
-    /// Logs what is left out of a file that is otherwise drawn.
+    /// Notes what is left out of a file that is otherwise drawn.
     template <class... Args>
     void skip(fmt::format_string<Args...> format, Args&&... args) const {
-        spdlog::warn("{}", one_line(path_.string() + ": " + fmt::format(format, std::forward<Args>(args)...)));
+        skipped_.insert(one_line(path_.string() + ": " + fmt::format(format, std::forward<Args>(args)...)));
+    }
+    /// Logs what was left out, each once. Of a file that is refused only the reason is told.
+    void tell_skipped() const {
+        for (const std::string& what : skipped_) spdlog::warn("{}", what);
     }
 
     template <class T>
@@ -51,14 +56,15 @@ class GltfFile {
 
     [[nodiscard]] float number(double value, const std::string& what, double min = -HUGE_VAL,
                                double max = HUGE_VAL) const;
-    [[nodiscard]] float number(const Json& value, const std::string& what, double min = -HUGE_VAL) const;
+    [[nodiscard]] float number(const Json& value, const std::string& what, double min = -HUGE_VAL,
+                               double max = HUGE_VAL) const;
     [[nodiscard]] bool boolean(const Json& value, const std::string& what) const;
     template <int n>
-    glm::vec<n, float> vector(const std::vector<double>& values, const std::string& what,
-                              double min = -HUGE_VAL) const {
+    glm::vec<n, float> vector(const std::vector<double>& values, const std::string& what, double min = -HUGE_VAL,
+                              double max = HUGE_VAL) const {
         if (values.size() != n) fail("{}: {} numbers given, {} expected", what, values.size(), n);
         glm::vec<n, float> v;
-        for (int i = 0; i < n; ++i) v[i] = number(values[static_cast<std::size_t>(i)], what, min);
+        for (int i = 0; i < n; ++i) v[i] = number(values[static_cast<std::size_t>(i)], what, min, max);
         return v;
     }
     /// Normalised; one of no length is an error.
@@ -93,7 +99,6 @@ class GltfFile {
     }
 
   private:
-    void check_container(std::span<const std::uint8_t> bytes, bool binary) const;
     void check_extensions() const;
     template <class Visit>
     void visit(int view, std::size_t offset, std::size_t count, std::size_t size, const std::string& what,
@@ -104,6 +109,7 @@ class GltfFile {
 
     std::filesystem::path path_;
     tinygltf::Model model_;
+    mutable std::set<std::string> skipped_;  ///< a note of what was read, not of the file
 };
 
 }  // namespace tyndall::gltf

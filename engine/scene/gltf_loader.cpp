@@ -1,8 +1,10 @@
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numbers>
 
+#include "engine/core/files.h"
 #include "engine/scene/gltf_parts.h"
 #include "engine/scene/mesh_build.h"
 
@@ -25,12 +27,16 @@ void load_scene_extras(const GltfFile& file, Scene& scene) {
     if (file.model().scenes.empty()) return;
     const auto index = static_cast<std::size_t>(std::max(file.model().defaultScene, 0));
     const gltf::Json extra = file.extras(file.model().scenes[index]);
-    if (extra.contains("exposure")) scene.exposure_ev100 = file.number(extra["exposure"], "extras.exposure");
+    if (extra.contains("exposure"))
+        scene.exposure_ev100 = file.number(extra["exposure"], "extras.exposure", -64, 64);
     if (!extra.contains("media")) return;
     gltf::Json media = extra["media"];
     if (media.is_string()) {  // a text property of a modelling program
-        media = gltf::Json::parse(media.get<std::string>(), nullptr, false);
-        if (media.is_discarded()) file.fail("extras.media: the text is not valid JSON");
+        try {
+            media = parse_json(media.get<std::string>());
+        } catch (const Error& e) {
+            file.fail("extras.media: the text is not valid JSON: {}", e.what());
+        }
     }
     scene.media = parse_media(media, scene.path.string() + ": extras");
 }
@@ -49,21 +55,72 @@ void end_lamps(Scene& scene) {
     }
 }
 
-/// Nodes whose transform mirrors get meshes with turned faces, made once for each mesh.
-void turn_mirrored_meshes(Scene& scene) {
-    std::map<int, int> turned;
-    for (Node& node : scene.nodes) {
-        if (glm::determinant(glm::mat3(node.world)) >= 0) continue;
-        for (int& mesh : node.meshes) {
-            const auto [entry, added] = turned.try_emplace(mesh, static_cast<int>(scene.meshes.size()));
-            if (added) scene.meshes.push_back(mirrored(scene.meshes[static_cast<std::size_t>(mesh)]));
-            mesh = entry->second;
+/// Names of extras that nothing reads, told in one line: a name that is a little off would else go unseen.
+void tell_ignored_extras(const GltfFile& file) {
+    std::vector<std::string> ignored;
+    const auto look = [&](const auto& items, const char* what, std::initializer_list<const char*> known) {
+        for (const auto& item : items) {
+            const gltf::Json extra = file.extras(item);
+            for (const auto& [key, value] : extra.items()) {
+                const std::string name = fmt::format("\"{}\" of a {}", key, what);
+                if (std::ranges::find(known, key) == known.end() &&
+                    std::ranges::find(ignored, name) == ignored.end())
+                    ignored.push_back(name);
+            }
         }
+    };
+    look(file.model().scenes, "scene", {"exposure", "media"});
+    look(file.model().nodes, "node", {"cast_shadow", "draw_distance", "particles"});
+    look(file.model().lights, "light", {"radius", "shadow"});
+    look(file.model().animations, "animation", {"places"});
+    if (!ignored.empty()) file.skip("extras ignored: {}", fmt::join(ignored, ", "));
+}
+
+constexpr float farthest = 1e9f;  // m; squares and products of distances stay finite
+
+/// How far from its parent, and how large, a node is at most at any time of its animations.
+struct Reach {
+    double distance = 0, scale = 1;
+};
+
+Reach own_reach(const Scene& scene, int index) {
+    const Node& node = scene.nodes[static_cast<std::size_t>(index)];
+    glm::dvec3 translation = glm::abs(glm::dvec3(node.translation)), scale = glm::abs(glm::dvec3(node.scale));
+    for (const Animation& animation : scene.animations) {
+        for (const Animation::Channel& channel : animation.channels) {
+            if (channel.node != index || channel.path == Animation::Path::rotation) continue;
+            glm::dvec3& most = channel.path == Animation::Path::scale ? scale : translation;
+            for (const glm::vec4& value : channel.values) most = glm::max(most, glm::abs(glm::dvec3(value)));
+            // A spline leaves its keys by less than their span times the larger tangent.
+            if (channel.interpolation == Animation::Interpolation::cubic)
+                most *= 2 * (1 + double{channel.times.back()});
+        }
+    }
+    return {glm::length(translation), std::max({scale.x, scale.y, scale.z})};
+}
+
+/// What moves is checked for all times, by bounds that a scene of any size keeps.
+void check_animations(const GltfFile& file, const Scene& scene) {
+    std::vector<Reach> reach;
+    for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
+        const Node& node = scene.nodes[i];
+        const Reach parent = node.parent < 0 ? Reach{} : reach[static_cast<std::size_t>(node.parent)];
+        const Reach own = own_reach(scene, static_cast<int>(i));
+        reach.push_back({parent.distance + parent.scale * own.distance, parent.scale * own.scale});
+        double size = 0;
+        for (const int mesh : node.meshes) {
+            const Aabb& box = scene.meshes[static_cast<std::size_t>(mesh)].bounds;
+            if (!box.empty())
+                size = std::max<double>(size, glm::length(glm::max(glm::abs(box.min), glm::abs(box.max))));
+        }
+        const double most = reach.back().distance + reach.back().scale * size;
+        if (node.dynamic && !(most <= farthest && reach.back().scale < 1e30))
+            file.fail("node \"{}\": its animation may take it {} m far, at most {} m expected", node.name, most,
+                      farthest);
     }
 }
 
 void place_in_world(const GltfFile& file, Scene& scene) {
-    constexpr float farthest = 1e9f;  // m; squares and products of distances stay finite
     animate(scene, 0);
     for (const Node& node : scene.nodes) {
         for (int column = 0; column < 4; ++column)
@@ -71,15 +128,17 @@ void place_in_world(const GltfFile& file, Scene& scene) {
                 file.fail("node \"{}\": its place in the world is not finite", node.name);
         if (glm::length(glm::vec3(node.world[3])) > farthest)
             file.fail("node \"{}\": it is farther than {} m from the origin", node.name, farthest);
-    }
-    turn_mirrored_meshes(scene);
-    for (const Node& node : scene.nodes) {
         for (const int mesh : node.meshes) {
             const Aabb box = transformed(scene.meshes[static_cast<std::size_t>(mesh)].bounds, node.world);
+            if (box.empty()) continue;
+            const glm::vec3 most = glm::max(glm::abs(box.min), glm::abs(box.max));
+            if (!(std::max({most.x, most.y, most.z}) <= farthest))
+                file.fail("node \"{}\": its mesh reaches farther than {} m from the origin", node.name, farthest);
             scene.bounds.add(box.min);
             scene.bounds.add(box.max);
         }
     }
+    check_animations(file, scene);
 }
 
 }  // namespace
@@ -95,8 +154,10 @@ Scene load_gltf(const std::filesystem::path& path) {
         gltf::load_animations(file, nodes, scene);
         load_scene_extras(file, scene);
         end_lamps(scene);
+        tell_ignored_extras(file);
         if (scene.materials.empty()) scene.materials.emplace_back().name = "default";
         place_in_world(file, scene);
+        file.tell_skipped();
         return scene;
     } catch (const Error&) {
         throw;

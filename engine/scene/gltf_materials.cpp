@@ -1,3 +1,5 @@
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <atomic>
 #include <future>
@@ -19,22 +21,23 @@ class Pictures {
         if (texture == -1) return -1;
         if (tex_coord != 0)
             file_.skip("{}: texture coordinates {} are not supported, set 0 is used", what, tex_coord);
-        const int image = file_.at(file_.model().textures, texture, what + ": texture").source;
-        (void)file_.at(file_.model().images, image, what + ": image");
-        const auto found = std::ranges::find(images_, image);
-        if (found == images_.end()) {
-            images_.push_back(image);
-            return static_cast<int>(images_.size()) - 1;
+        const tinygltf::Texture& from = file_.at(file_.model().textures, texture, what + ": texture");
+        (void)file_.at(file_.model().images, from.source, what + ": image");
+        const Use use{from.source, sampling(from.sampler, what)};
+        const auto found = std::ranges::find(uses_, use);
+        if (found == uses_.end()) {
+            uses_.push_back(use);
+            return static_cast<int>(uses_.size()) - 1;
         }
-        return static_cast<int>(found - images_.begin());
+        return static_cast<int>(found - uses_.begin());
     }
 
     /// Decoding is most of a level's loading time: every core takes the next picture.
     [[nodiscard]] std::vector<Picture> decode() const {
-        std::vector<Picture> pictures(images_.size());
+        std::vector<Picture> pictures(uses_.size());
         std::atomic<std::size_t> next = 0;
         const auto work = [&] {
-            for (std::size_t i = next++; i < pictures.size(); i = next++) pictures[i] = decode(images_[i]);
+            for (std::size_t i = next++; i < pictures.size(); i = next++) pictures[i] = decode(uses_[i]);
         };
         const std::size_t cores = std::max(std::thread::hardware_concurrency(), 1u);
         std::vector<std::future<void>> workers;
@@ -46,14 +49,41 @@ class Pictures {
     }
 
   private:
-    [[nodiscard]] Picture decode(int index) const {
-        const tinygltf::Image& from = file_.model().images[static_cast<std::size_t>(index)];
+    /// An image of the file, read in one way: in another it is another picture.
+    struct Use {
+        int image;
+        Sampling sampling;
+        bool operator==(const Use&) const = default;
+    };
+
+    [[nodiscard]] Sampling sampling(int index, const std::string& what) const {
+        Sampling to;
+        if (index == -1) return to;
+        const tinygltf::Sampler& from = file_.at(file_.model().samplers, index, what + ": sampler");
+        const auto one_of = [&](int value, const char* key, std::initializer_list<int> known) {
+            if (std::ranges::find(known, value) == known.end())
+                file_.fail("{}: sampler {}: {} {} given, one of {} expected", what, index, key, value,
+                           fmt::join(known, ", "));
+            return value;
+        };
+        to.u = static_cast<Wrap>(one_of(from.wrapS, "wrapS", {10497, 33071, 33648}));
+        to.v = static_cast<Wrap>(one_of(from.wrapT, "wrapT", {10497, 33071, 33648}));
+        constexpr int nearest = 9728, linear = 9729;
+        if (from.magFilter != -1) to.nearest = one_of(from.magFilter, "magFilter", {nearest, linear}) == nearest;
+        if (from.minFilter != -1)
+            to.minification = static_cast<unsigned>(
+                one_of(from.minFilter, "minFilter", {nearest, linear, 9984, 9985, 9986, 9987}));
+        return to;
+    }
+
+    [[nodiscard]] Picture decode(const Use& use) const {
+        const tinygltf::Image& from = file_.model().images[static_cast<std::size_t>(use.image)];
         const std::string what =
-            one_line(fmt::format("image {} \"{}\"", index, from.name.empty() ? from.uri : from.name));
+            one_line(fmt::format("image {} \"{}\"", use.image, from.name.empty() ? from.uri : from.name));
         const std::span<const std::uint8_t> bytes =
             from.bufferView >= 0 ? file_.view_bytes(from.bufferView, 0, what) : std::span(from.image);
         const Image image = decode_image(bytes, file_.path().string() + ": " + what, 4);
-        Picture to{from.name, image.size, std::vector<std::uint8_t>(image.pixels.size())};
+        Picture to{from.name, image.size, std::vector<std::uint8_t>(image.pixels.size()), use.sampling};
         std::ranges::transform(image.pixels, to.rgba.begin(), [](float v) {
             return static_cast<std::uint8_t>(std::clamp(v, 0.0f, 1.0f) * 255.0f + 0.5f);
         });
@@ -61,7 +91,7 @@ class Pictures {
     }
 
     const GltfFile& file_;
-    std::vector<int> images_;  ///< of each picture, the file's image
+    std::vector<Use> uses_;  ///< of each picture
 };
 
 std::vector<double> numbers(const tinygltf::Value& array) {
@@ -98,7 +128,7 @@ Material load_material(const GltfFile& file, const tinygltf::Material& from, Pic
     const tinygltf::PbrMetallicRoughness& pbr = from.pbrMetallicRoughness;
     Material to;
     to.name = from.name;
-    to.base_color = file.vector<4>(pbr.baseColorFactor, what + ": baseColorFactor", 0);
+    to.base_color = file.vector<4>(pbr.baseColorFactor, what + ": baseColorFactor", 0, 1);
     to.metallic = file.number(pbr.metallicFactor, what + ": metallicFactor", 0, 1);
     to.roughness = file.number(pbr.roughnessFactor, what + ": roughnessFactor", 0, 1);
     to.dielectric_f0 = load_dielectric_f0(file, from, what);
@@ -106,7 +136,7 @@ Material load_material(const GltfFile& file, const tinygltf::Material& from, Pic
     if (const auto* strength = file.extension(from, "KHR_materials_emissive_strength", "emissiveStrength"))
         to.emissive *= file.number(strength->GetNumberAsDouble(), what + ": emissiveStrength", 0);
     if (!std::isfinite(glm::length(to.emissive))) file.fail("{}: emission is not finite", what);
-    to.normal_scale = file.number(from.normalTexture.scale, what + ": normal scale");
+    to.normal_scale = file.number(from.normalTexture.scale, what + ": normal scale", -1e4, 1e4);
     to.occlusion_strength = file.number(from.occlusionTexture.strength, what + ": occlusion strength", 0, 1);
 
     const auto texture = [&](const auto& info, const char* slot) {

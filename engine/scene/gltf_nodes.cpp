@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/type_ptr.hpp>
 #include <numbers>
 #include <set>
@@ -50,21 +51,48 @@ std::vector<int> find_roots(const GltfFile& file, const std::vector<int>& parent
     return roots;
 }
 
+/// The columns at length 1; those of a scale of 0 so that all are orthogonal.
+glm::dmat3 axes_of(const glm::dmat3& linear, glm::dvec3 scale) {
+    glm::dmat3 axes(0);
+    std::vector<int> flat;
+    for (int i = 0; i < 3; ++i) {
+        if (scale[i] == 0)
+            flat.push_back(i);
+        else
+            axes[i] = linear[i] / scale[i];
+    }
+    if (flat.size() == 3) return glm::dmat3(1);
+    if (flat.size() == 2) {
+        const glm::dvec3 known = glm::abs(axes[3 - flat[0] - flat[1]]);
+        glm::dvec3 least(0);
+        least[known.x <= known.y && known.x <= known.z ? 0 : known.y <= known.z ? 1 : 2] = 1;
+        axes[flat[1]] = glm::normalize(glm::cross(axes[3 - flat[0] - flat[1]], least));
+    }
+    if (!flat.empty()) axes[flat[0]] = glm::cross(axes[(flat[0] + 1) % 3], axes[(flat[0] + 2) % 3]);
+    return axes;
+}
+
 /// glTF: a matrix must be a product of translation, rotation and scale. A mirroring goes into the scale of x.
 void decompose(const GltfFile& file, const std::vector<double>& values, Node& node, const std::string& what) {
     if (values.size() != 16) file.fail("{}: {} numbers given, 16 expected", what, values.size());
-    glm::mat4 matrix;
+    glm::dmat4 matrix;
     for (std::size_t i = 0; i < 16; ++i) glm::value_ptr(matrix)[i] = file.number(values[i], what);
-    const glm::mat3 linear(matrix);
-    for (int axis = 0; axis < 3; ++axis) node.scale[axis] = glm::length(linear[axis]);
-    if (glm::determinant(linear) < 0) node.scale.x = -node.scale.x;
-    const glm::mat3 rotation(linear[0] / node.scale.x, linear[1] / node.scale.y, linear[2] / node.scale.z);
-    const glm::mat3 residual = glm::transpose(rotation) * rotation - glm::mat3(1);
+    const glm::dvec4 last_row(matrix[0][3], matrix[1][3], matrix[2][3], matrix[3][3]);
+    if (!(glm::distance(last_row, glm::dvec4(0, 0, 0, 1)) < 1e-5))
+        file.fail("{}: its last row is {} {} {} {}, 0 0 0 1 expected", what, last_row.x, last_row.y, last_row.z,
+                  last_row.w);
+    const glm::dmat3 linear(matrix);
+    glm::dvec3 scale;
+    for (int axis = 0; axis < 3; ++axis) scale[axis] = glm::length(linear[axis]);
+    if (glm::determinant(linear) < 0) scale.x = -scale.x;
+    const glm::dmat3 rotation = axes_of(linear, scale);
+    const glm::dmat3 residual = glm::transpose(rotation) * rotation - glm::dmat3(1);
     for (int axis = 0; axis < 3; ++axis)
-        if (!(glm::length(residual[axis]) < 1e-3f))
+        if (!(glm::length(residual[axis]) < 1e-3))
             file.fail("{}: it is not a product of translation, rotation and scale", what);
     node.translation = glm::vec3(matrix[3]);
-    node.rotation = glm::normalize(glm::quat_cast(rotation));
+    node.scale = glm::vec3(scale);
+    node.rotation = glm::quat(glm::normalize(glm::quat_cast(rotation)));
 }
 
 /// Returns the scene's camera; -1 for a kind that is not supported.
@@ -94,9 +122,11 @@ int load_light(const GltfFile& file, int index, int id, Scene& scene, const std:
         light.type = LightType::sun;
     } else if (from.type == "spot") {
         light.type = LightType::spot;
-        light.outer_cone =
-            file.number(from.spot.outerConeAngle, what + ": outerConeAngle", 1e-4, std::numbers::pi / 2 + 1e-4);
-        light.inner_cone = file.number(from.spot.innerConeAngle, what + ": innerConeAngle", 0, light.outer_cone);
+        // As the file says them: rounding may swap them.
+        const double outer = from.spot.outerConeAngle;
+        light.outer_cone = file.number(outer, what + ": outerConeAngle", 1e-4, std::numbers::pi / 2 + 1e-4);
+        light.inner_cone =
+            std::min(file.number(from.spot.innerConeAngle, what + ": innerConeAngle", 0, outer), light.outer_cone);
     } else if (from.type != "point") {
         file.fail("{}: type {} given, directional, point or spot expected", what, from.type);
     }
@@ -107,11 +137,45 @@ int load_light(const GltfFile& file, int index, int id, Scene& scene, const std:
     if (brightest > brightest_light)
         file.fail("{}: intensity times color is {}, at most {} expected", what, brightest, brightest_light);
     const Json extra = file.extras(from);
-    if (extra.contains("radius")) light.radius = file.number(extra["radius"], what + ": extras.radius", 1e-6);
+    if (extra.contains("radius")) light.radius = file.number(extra["radius"], what + ": extras.radius", 1e-6, 1e6);
     if (extra.contains("shadow")) light.shadow = file.boolean(extra["shadow"], what + ": extras.shadow");
-    light.range = file.number(from.range, what + ": range", 0);
+    light.range = file.number(from.range, what + ": range", 0, 1e9);
     scene.lights.push_back(light);
     return static_cast<int>(scene.lights.size()) - 1;
+}
+
+glm::dmat4 local_transform(const tinygltf::Node& node) {
+    if (!node.matrix.empty()) return glm::make_mat4(node.matrix.data());
+    glm::dmat4 m(1);
+    if (!node.translation.empty()) m = glm::translate(m, glm::make_vec3(node.translation.data()));
+    if (!node.rotation.empty())
+        m *= glm::mat4_cast(
+            glm::normalize(glm::dquat(node.rotation[3], node.rotation[0], node.rotation[1], node.rotation[2])));
+    return node.scale.empty() ? m : glm::scale(m, glm::make_vec3(node.scale.data()));
+}
+
+/// What a skin's joints do to vertices where they are in the file.
+std::vector<glm::dmat4> rest_pose(const GltfFile& file, int index, const std::vector<int>& parents,
+                                  const std::string& what) {
+    const tinygltf::Skin& skin = file.at(file.model().skins, index, what + ": skin");
+    std::vector<double> inverse_binds;
+    if (skin.inverseBindMatrices != -1)
+        inverse_binds = file.read(skin.inverseBindMatrices, TINYGLTF_TYPE_MAT4, what + ": inverse bind matrices");
+    if (!inverse_binds.empty() && inverse_binds.size() != skin.joints.size() * 16)
+        file.fail("{}: skin {} has {} joints and {} inverse bind matrices", what, index, skin.joints.size(),
+                  inverse_binds.size() / 16);
+    std::vector<glm::dmat4> joints;
+    for (const int joint : skin.joints) {
+        glm::dmat4 m = inverse_binds.empty() ? glm::dmat4(1) : glm::make_mat4(&inverse_binds[joints.size() * 16]);
+        (void)file.at(parents, joint, what + ": joint");
+        for (int node = joint; node >= 0; node = parents[static_cast<std::size_t>(node)])
+            m = local_transform(file.model().nodes[static_cast<std::size_t>(node)]) * m;
+        m[0][3] = m[1][3] = m[2][3] = 0;  // of matrices that are not affine by rounding
+        m[3][3] = 1;
+        joints.push_back(m);
+    }
+    if (joints.empty()) file.fail("{}: skin {} has no joints", what, index);
+    return joints;
 }
 
 /// EXT_mesh_gpu_instancing: a child node for each instance of the last node of the scene, which gives up its
@@ -135,6 +199,7 @@ void load_instances(const GltfFile& file, const tinygltf::Node& from, Scene& sce
     instance.name = from.name;
     instance.parent = static_cast<int>(scene.nodes.size()) - 1;
     instance.cast_shadow = scene.nodes.back().cast_shadow;
+    instance.draw_distance = scene.nodes.back().draw_distance;
     std::swap(instance.meshes, scene.nodes.back().meshes);
     for (std::size_t i = 0; i < count; ++i) {
         if (!translations.empty()) instance.translation = translations[i];
@@ -144,7 +209,7 @@ void load_instances(const GltfFile& file, const tinygltf::Node& from, Scene& sce
     }
 }
 
-void load_node(const GltfFile& file, const tinygltf::Node& from, int parent,
+void load_node(const GltfFile& file, const tinygltf::Node& from, int parent, const std::vector<int>& parents,
                const std::vector<std::vector<int>>& meshes, Scene& scene, const std::string& what) {
     const int id = static_cast<int>(scene.nodes.size());
     Node node;
@@ -163,14 +228,24 @@ void load_node(const GltfFile& file, const tinygltf::Node& from, int parent,
     if (extra.contains("cast_shadow"))
         node.cast_shadow = file.boolean(extra["cast_shadow"], what + ": extras.cast_shadow");
     if (extra.contains("draw_distance"))
-        node.draw_distance = file.number(extra["draw_distance"], what + ": extras.draw_distance", 0);
-    if (from.skin != -1) file.skip("{}: skins are not supported, drawn in its rest pose", what);
+        node.draw_distance = file.number(extra["draw_distance"], what + ": extras.draw_distance", 0, 1e9);
     if (from.camera != -1) node.camera = load_camera(file, from, id, scene, what);
     if (const auto* light = file.extension(from, "KHR_lights_punctual", "light"))
         node.light = load_light(file, light->GetNumberAsInt(), id, scene, what);
-    if (from.mesh != -1) node.meshes = file.at(meshes, from.mesh, what + ": mesh");
+    const bool skinned = from.mesh != -1 && from.skin != -1;
+    if (from.mesh != -1 && !skinned) node.meshes = file.at(meshes, from.mesh, what + ": mesh");
     load_particles(file, extra, id, scene, what);
     scene.nodes.push_back(node);
+    if (skinned) {  // its joints alone place it: not the node
+        file.skip("{}: skins are not moved, drawn in its rest pose", what);
+        Node bent;
+        bent.name = from.name;
+        bent.cast_shadow = node.cast_shadow;
+        bent.draw_distance = node.draw_distance;
+        bent.meshes = load_mesh(file, from.mesh, rest_pose(file, from.skin, parents, what), scene);
+        scene.nodes.push_back(bent);
+        return;
+    }
     if (from.extensions.contains("EXT_mesh_gpu_instancing")) load_instances(file, from, scene, what);
 }
 
@@ -185,7 +260,7 @@ std::vector<int> load_nodes(const GltfFile& file, const std::vector<std::vector<
         const auto index = static_cast<std::size_t>(order[i]);
         const int parent = parents[index] < 0 ? -1 : scene_node[static_cast<std::size_t>(parents[index])];
         scene_node[index] = static_cast<int>(scene.nodes.size());
-        load_node(file, nodes[index], parent, meshes, scene,
+        load_node(file, nodes[index], parent, parents, meshes, scene,
                   fmt::format("node {} \"{}\"", index, nodes[index].name));
         order.insert(order.end(), nodes[index].children.begin(), nodes[index].children.end());
     }

@@ -11,6 +11,9 @@ namespace tyndall::gltf {
 void load_materials(const GltfFile& file, Scene& scene);
 /// A mesh per primitive. Returns, for each mesh of the file, the indices of the scene's meshes.
 [[nodiscard]] std::vector<std::vector<int>> load_meshes(const GltfFile& file, Scene& scene);
+/// The scene's meshes of one of the file's. `joints` of a skin, in the world, move its vertices; none: no skin.
+[[nodiscard]] std::vector<int> load_mesh(const GltfFile& file, int index, const std::vector<glm::dmat4>& joints,
+                                         Scene& scene);
 /// Nodes with their lights and cameras. Returns, for each node of the file, the scene's; -1 outside the scene.
 [[nodiscard]] std::vector<int> load_nodes(const GltfFile& file, const std::vector<std::vector<int>>& meshes,
                                           Scene& scene);

@@ -89,11 +89,4 @@ void make_arbitrary_tangents(Mesh& mesh) {
     for (Vertex& v : mesh.vertices) v.tangent = glm::vec4(orthogonal(v.normal), 1);
 }
 
-Mesh mirrored(const Mesh& mesh) {
-    Mesh out = mesh;
-    for (std::size_t i = 0; i + 2 < out.indices.size(); i += 3) std::swap(out.indices[i + 1], out.indices[i + 2]);
-    for (Vertex& v : out.vertices) v.tangent.w = -v.tangent.w;
-    return out;
-}
-
 }  // namespace tyndall

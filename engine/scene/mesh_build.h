@@ -23,8 +23,4 @@ void compute_tangents(Mesh& mesh);
 /// Any tangent orthogonal to the normal: enough where no normal map is used.
 void make_arbitrary_tangents(Mesh& mesh);
 
-/// The mesh for nodes whose transform mirrors: winding and the bitangent's sign turned, so that faces stay front
-/// faces and normal maps keep their handedness after the mirroring.
-[[nodiscard]] Mesh mirrored(const Mesh& mesh);
-
 }  // namespace tyndall

@@ -20,6 +20,18 @@ struct Vertex {
     glm::vec3 normal;
     glm::vec4 tangent;  ///< w is the sign of the bitangent
     glm::vec2 uv;
+    glm::vec4 color{1};  ///< linear; multiplies the material's base colour
+};
+
+/// How a picture goes on beyond its edges. Numbers of glTF, which are OpenGL's.
+enum class Wrap { repeat = 10497, clamp = 33071, mirror = 33648 };
+
+/// How a picture is read between and beyond its texels.
+struct Sampling {
+    Wrap u = Wrap::repeat, v = Wrap::repeat;
+    bool nearest = false;          ///< magnified: the nearest texel, not a mix of four
+    unsigned minification = 9987;  ///< GL_LINEAR_MIPMAP_LINEAR, or another of glTF's six
+    bool operator==(const Sampling&) const = default;
 };
 
 /// A texture's picture, 8 bit RGBA, rows from the top. Whether it is sRGB follows from the slot that uses it.
@@ -27,6 +39,7 @@ struct Picture {
     std::string name;
     glm::ivec2 size{0};
     std::vector<std::uint8_t> rgba;
+    Sampling sampling{};
 };
 
 /// glTF metallic-roughness. Picture indices are -1 where absent.
@@ -72,7 +85,7 @@ struct Node {
 
 enum class LightType { sun, point, spot };
 
-/// KHR_lights_punctual. It shines along its node's -Z.
+/// KHR_lights_punctual. It shines along -Z of its node's node_pose().
 struct Light {
     std::string name;
     LightType type = LightType::point;
@@ -141,6 +154,13 @@ void animate(Scene& scene, double time, const std::string& except = "flythrough"
 /// Evaluates one animation (clamped to its duration), for the fly-through.
 void animate_one(Scene& scene, const Animation& animation, double time);
 void update_world_transforms(Scene& scene);
+
+/// Whether a transform mirrors, so that triangles are wound the other way. One that flattens does not.
+[[nodiscard]] bool mirrors(const glm::mat4& world);
+/// Where a node is and how it is turned, as orthonormal right-handed axes: what lights and cameras take of it, for
+/// they have no size. -Z is the world transform's; where that has none, because a scale of 0 took it, the limit of
+/// small scales. +Y is its own as far as it is orthogonal to that.
+[[nodiscard]] glm::mat4 node_pose(const Scene& scene, int node);
 
 /// Adds a camera that frames the bounds, if the scene has none.
 void add_missing_camera(Scene& scene);

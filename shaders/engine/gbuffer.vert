@@ -8,11 +8,14 @@ layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec4 tangent;
 layout(location = 3) in vec2 texcoord;
+layout(location = 4) in vec4 color;
+
+uniform float handedness;  // -1 where the model matrix mirrors
 
 layout(location = 0) out vec3 world_normal;
 layout(location = 1) out vec4 world_tangent;
 layout(location = 2) out vec2 uv;
-layout(location = 3) flat out float handedness;  // -1 where the model matrix mirrors
+layout(location = 3) out vec4 vertex_color;
 #if MOTION
 layout(std430, binding = BINDING_PREVIOUS_INSTANCES) readonly buffer PreviousInstanceBuffer { mat4 previous_models[]; };
 uniform mat4 u_previous_view_projection;
@@ -22,13 +25,15 @@ layout(location = 5) out vec3 clip_before;  // of the same point of the surface 
 
 void main() {
     mat4 model = models[visible_instances[gl_BaseInstanceARB + gl_InstanceID]];
-    mat3 m = mat3(model);
+    vec3 largest = max(max(abs(model[0].xyz), abs(model[1].xyz)), abs(model[2].xyz));
+    // Its size does not matter to directions, and squares of a small one would vanish.
+    mat3 m = mat3(model) / max(max(largest.x, largest.y), max(largest.z, 1.0e-30));
     // The cofactor matrix is det(m) times the inverse transpose: it carries normals, and exists for any scale.
     mat3 cofactor = mat3(cross(m[1], m[2]), cross(m[2], m[0]), cross(m[0], m[1]));
-    handedness = dot(m[0], cofactor[0]) < 0.0 ? -1.0 : 1.0;
     world_normal = handedness * (cofactor * normal);
     world_tangent = vec4(m * tangent.xyz, handedness * tangent.w);
     uv = texcoord;
+    vertex_color = color;
     gl_Position = frame.view_projection * (model * vec4(position, 1.0));
 #if MOTION
     mat4 previous_model = previous_models[visible_instances[gl_BaseInstanceARB + gl_InstanceID]];

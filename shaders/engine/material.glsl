@@ -2,10 +2,12 @@
 #ifndef ENGINE_MATERIAL_GLSL
 #define ENGINE_MATERIAL_GLSL
 
+#include "shaders/engine/frame_block.glsl"
+
 layout(location = 0) in vec3 world_normal;
 layout(location = 1) in vec4 world_tangent;
 layout(location = 2) in vec2 uv;
-layout(location = 3) flat in float handedness;
+layout(location = 3) in vec4 vertex_color;
 
 layout(binding = 0) uniform sampler2D base_color_texture;
 layout(binding = 1) uniform sampler2D metallic_roughness_texture;
@@ -18,7 +20,7 @@ uniform vec4 emissive_alpha_cutoff;
 uniform vec4 metallic_roughness_normal_occlusion;
 uniform float dielectric_f0;
 
-vec4 material_base_color() { return texture(base_color_texture, uv) * base_color_factor; }
+vec4 material_base_color() { return texture(base_color_texture, uv) * base_color_factor * vertex_color; }
 
 vec2 material_roughness_metallic() {
     return texture(metallic_roughness_texture, uv).gb * metallic_roughness_normal_occlusion.yx;
@@ -33,11 +35,23 @@ vec3 material_emissive() {
     return min(texture(emissive_texture, uv).rgb * emissive_alpha_cutoff.rgb, vec3(65000.0));
 }
 
-// World space, unit. Two-sided surfaces show the back with its normal reversed; a mirrored instance has its faces wound
-// backwards.
+// Of the triangle, unit, towards the eye.
+vec3 material_face_normal() {
+    vec3 ndc = vec3(gl_FragCoord.xy * frame.viewport.zw * 2.0 - 1.0, gl_FragCoord.z);
+    vec4 world = frame.inverse_view_projection * vec4(ndc, 1.0);
+    vec3 to_eye = frame.eye.xyz - world.xyz / world.w;
+    vec3 n = cross(dFdx(to_eye), dFdy(to_eye));
+    float size = length(n);
+    return size > 0.0 ? n / (dot(n, to_eye) < 0.0 ? -size : size) : normalize(to_eye);
+}
+
+// World space, unit. Two-sided surfaces show the back with its normal reversed.
 vec3 material_normal() {
-    float side = gl_FrontFacing == (handedness > 0.0) ? 1.0 : -1.0;
-    vec3 n = normalize(world_normal);
+    float side = gl_FrontFacing ? 1.0 : -1.0;
+    vec3 face = material_face_normal();
+    float size = length(world_normal);
+    // A transform that flattens leaves nothing but rounding of the normals that lie in its plane.
+    vec3 n = size > 1.0e-6 ? world_normal / size : side * face;
     // 8 bits hold no 0.5: 128 is what everybody writes for a flat surface, so that is made exactly flat.
     vec3 bump = texture(normal_texture, uv).xyz * (255.0 / 127.0) - 128.0 / 127.0;
     bump.xy *= metallic_roughness_normal_occlusion.z;

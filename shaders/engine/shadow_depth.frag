@@ -2,6 +2,7 @@
 
 #if ALPHA_MASK
 in vec2 surface_uv;
+in float vertex_alpha;
 layout(binding = 0) uniform sampler2D base_color;
 uniform float alpha_factor;
 uniform float alpha_cutoff;
@@ -9,6 +10,6 @@ uniform float alpha_cutoff;
 
 void main() {
 #if ALPHA_MASK
-    if (texture(base_color, surface_uv).a * alpha_factor < alpha_cutoff) discard;
+    if (texture(base_color, surface_uv).a * alpha_factor * vertex_alpha < alpha_cutoff) discard;
 #endif
 }

@@ -4,6 +4,7 @@
 
 layout(location = 0) in vec3 position;
 layout(location = 3) in vec2 uv;
+layout(location = 4) in vec4 color;
 
 layout(std430, binding = BINDING_INSTANCES) readonly buffer InstanceBuffer { mat4 instances[]; };
 layout(std430, binding = BINDING_VISIBLE_INSTANCES) readonly buffer VisibleBuffer { uint visible_instances[]; };
@@ -11,6 +12,7 @@ uniform mat4 world_to_clip;
 
 #if ALPHA_MASK
 out vec2 surface_uv;
+out float vertex_alpha;
 #endif
 
 void main() {
@@ -18,5 +20,6 @@ void main() {
     gl_Position = world_to_clip * (model * vec4(position, 1.0));
 #if ALPHA_MASK
     surface_uv = uv;
+    vertex_alpha = color.a;
 #endif
 }

@@ -100,8 +100,7 @@ class BadNumbers : public GlTest {
         for (const double time : {0.0, 0.5}) {
             animate(scene, time);
             const Camera& camera = scene.cameras.at(0);
-            const View view = make_view(scene.nodes[static_cast<std::size_t>(camera.node)].world, camera.yfov,
-                                        camera.znear, 17.0f / 9);
+            const View view = make_view(node_pose(scene, camera.node), camera.yfov, camera.znear, 17.0f / 9);
             FrameOptions options;
             options.layer = "scattering";
             options.more_layers = {"transmittance"};

@@ -93,8 +93,8 @@ class DrawListTest : public GlTest {
         program_.set("view_projection", window({0, 0}, {8, 8}));
         list.draw(
             gpu,
-            [&](int material) {
-                program_.set("material", material);
+            [&](DrawList::Surfaces surfaces) {
+                program_.set("material", surfaces.material);
                 return true;
             },
             view);

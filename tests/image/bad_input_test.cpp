@@ -39,6 +39,9 @@ class BadInput : public ::testing::TestWithParam<Case> {
         write(folder_ / "negative.json", R"({"media":[{"shape":"global","scattering":[-1,0,0]}]})");
         write(folder_ / "infinite.json", R"({"media":[{"shape":"global","scattering":[1e999,0,0]}]})");
         write(folder_ / "shape.json", R"({"media":[{"shape":"torus","scattering":[1,1,1]}]})");
+        write(folder_ / "deep.json", std::string(100'000, '['));
+        write(folder_ / "deep.gltf", R"({"asset":{"version":"2.0"},"scenes":[{"extras":{"media":")" +
+                                         std::string(100'000, '[') + "\"}}]}");
         write(folder_ / "preset.json", R"({"steps": 8, "no_such_setting": 1})");
         write(folder_ / "escape.gltf",
               R"({"asset":{"version":"2.0"},"buffers":[{"uri":"../secret.bin","byteLength":12}],"scenes":[{}]})");
@@ -93,6 +96,9 @@ INSTANTIATE_TEST_SUITE_P(
              1,
              {"negative.json", "media[0]", "scattering"}},
         Case{"InfiniteMedium", render("{level}", {"--media", "{tmp}/infinite.json"}), 1, {"infinite.json"}},
+        Case{"DeepMedia", render("{level}", {"--media", "{tmp}/deep.json"}), 1, {"deep.json", "nested deeper"}},
+        Case{"DeepPreset", render("{level}", {"--preset", "{tmp}/deep.json"}), 1, {"deep.json", "nested deeper"}},
+        Case{"DeepExtras", render("{tmp}/deep.gltf"), 1, {"deep.gltf", "extras.media", "nested deeper"}},
         Case{"UnknownShape", render("{level}", {"--media", "{tmp}/shape.json"}), 1, {"torus"}},
         Case{"UnknownSetting", render("{level}", {"--set", "stepz=4"}), 2, {"stepz"}},
         Case{"ValueOutOfRange", render("{level}", {"--set", "steps=0"}), 2, {"steps", "0", "1024"}},

@@ -15,11 +15,6 @@ const ProgramDesc program{
     {}};
 const ProgramRegistry::Registration registration(program);
 
-bool any_mirrored(const FrameContext& frame) {
-    return std::ranges::any_of(frame.gpu.instances(),
-                               [&](const Instance& instance) { return is_mirrored(frame.scene, instance); });
-}
-
 }  // namespace
 
 GBuffer GBufferPass::add(FrameContext& frame, const std::optional<glm::mat4>& previous_view_projection) {
@@ -54,10 +49,7 @@ void GBufferPass::draw(const FrameContext& frame, const glm::mat4* previous_view
     const int motion = previous_view_projection != nullptr ? 1 : 0;
     const gl::Program* const programs[] = {&frame.shaders.get(program, {{"ALPHA_MASK", 0}, {"MOTION", motion}}),
                                            &frame.shaders.get(program, {{"ALPHA_MASK", 1}, {"MOTION", motion}})};
-    const GLenum cull = any_mirrored(frame) ? GL_NONE : GL_BACK;
-    const gl::DrawState one_sided{.depth_test = true, .depth_write = true, .cull = cull};
-    const gl::DrawState two_sided{.depth_test = true, .depth_write = true};
-    gl::apply(two_sided);
+    gl::apply({.depth_test = true, .depth_write = true});
     constexpr float zero[4] = {0, 0, 0, 0};
     for (GLint target = 0; target < 4 + motion; ++target) glClearBufferfv(GL_COLOR, target, zero);
     glClearBufferfv(GL_DEPTH, 0, zero);
@@ -68,11 +60,14 @@ void GBufferPass::draw(const FrameContext& frame, const glm::mat4* previous_view
         frame.gpu.bind_previous();
         for (const gl::Program* p : programs) p->set("u_previous_view_projection", *previous_view_projection);
     }
-    draws_.draw(frame.gpu, [&](int index) {
-        const GpuScene::GpuMaterial& material = frame.gpu.material(index);
-        gl::apply(material.double_sided ? two_sided : one_sided);
+    draws_.draw(frame.gpu, [&](DrawList::Surfaces surfaces) {
+        const GpuScene::GpuMaterial& material = frame.gpu.material(surfaces.material);
+        gl::apply({.depth_test = true,
+                   .depth_write = true,
+                   .cull = static_cast<GLenum>(material.double_sided ? GL_NONE : GL_BACK),
+                   .clockwise = surfaces.mirrored});
         glEnable(GL_FRAMEBUFFER_SRGB);  // the albedo target encodes; the next pass's state turns it off
-        bind_material(*programs[material.alpha_mask ? 1 : 0], material);
+        bind_material(*programs[material.alpha_mask ? 1 : 0], material, surfaces.mirrored);
         return true;
     });
 }

@@ -4,7 +4,7 @@
 
 namespace tyndall {
 
-void bind_material(const gl::Program& shader, const GpuScene::GpuMaterial& material) {
+void bind_material(const gl::Program& shader, const GpuScene::GpuMaterial& material, bool mirrored) {
     const std::array<GLuint, 5> textures{material.base_color, material.metallic_roughness, material.normal,
                                          material.occlusion, material.emissive};
     glBindTextures(0, static_cast<GLsizei>(textures.size()), textures.data());
@@ -12,11 +12,8 @@ void bind_material(const gl::Program& shader, const GpuScene::GpuMaterial& mater
     shader.set("emissive_alpha_cutoff", material.emissive_alpha_cutoff);
     shader.set("metallic_roughness_normal_occlusion", material.metallic_roughness_normal_occlusion);
     shader.set("dielectric_f0", material.dielectric_f0);
+    shader.set("handedness", mirrored ? -1.0f : 1.0f);
     shader.use();
-}
-
-bool is_mirrored(const Scene& scene, const Instance& instance) {
-    return glm::determinant(glm::mat3(scene.nodes[static_cast<std::size_t>(instance.node)].world)) < 0;
 }
 
 }  // namespace tyndall

@@ -5,11 +5,8 @@
 
 namespace tyndall {
 
-/// Uses the program with the textures (units 0 to 4) and uniforms of shaders/engine/material.glsl. The caller has
-/// no samplers on these units: the scene's textures carry their own sampling.
-void bind_material(const gl::Program& shader, const GpuScene::GpuMaterial& material);
-
-/// A node whose transform mirrors has its triangles wound the other way: its front faces would be culled.
-[[nodiscard]] bool is_mirrored(const Scene& scene, const Instance& instance);
+/// Uses the program with the textures (units 0 to 4) and uniforms of shaders/engine/material.glsl and gbuffer.vert.
+/// The caller has no samplers on these units: the scene's textures carry their own sampling.
+void bind_material(const gl::Program& shader, const GpuScene::GpuMaterial& material, bool mirrored);
 
 }  // namespace tyndall

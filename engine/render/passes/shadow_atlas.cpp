@@ -28,10 +28,6 @@ bool any_casts(const Scene& scene) {
            std::ranges::any_of(scene.lights, [](const Light& l) { return l.type != LightType::sun && casts(l); });
 }
 
-const glm::mat4& pose(const Scene& scene, const Light& light) {
-    return scene.nodes[light.node].world;
-}
-
 }  // namespace
 
 ShadowAtlasPass::ShadowAtlasPass(ShaderLibrary& shaders)
@@ -53,7 +49,7 @@ void ShadowAtlasPass::plan(const FrameContext& context, std::span<const std::siz
     std::vector<TileDemand> demands;
     for (const std::size_t i : casters) {
         const Light& light = scene.lights[i];
-        const float distance = glm::distance(context.view.eye, glm::vec3(pose(scene, light)[3]));
+        const float distance = glm::distance(context.view.eye, glm::vec3(node_pose(scene, light.node)[3]));
         lights_[i].level = light.type == LightType::sun
                                ? std::countr_zero(static_cast<unsigned>(size_max))
                                : shadow_tile_level(light.range, distance, size_max, lights_[i].level);
@@ -153,7 +149,7 @@ void ShadowAtlasPass::number_tiles(const FrameContext& context) {
     for (std::size_t i = 0; i < lights_.size(); ++i) {
         LightTiles& light = lights_[i];
         light.first = light.tiles.empty() ? -1 : static_cast<int>(data.size());
-        const glm::mat4& world = pose(scene, scene.lights[i]);
+        const glm::mat4 world = node_pose(scene, scene.lights[i].node);
         for (std::size_t face = 0; face < light.tiles.size(); ++face) {
             const AtlasTile& place = light.tiles[face].place;
             data.push_back(
@@ -177,7 +173,7 @@ void ShadowAtlasPass::find_redraws(const FrameContext& context, std::span<const 
     for (const std::size_t i : casters) {
         LightTiles& light = lights_[i];
         if (light.tiles.empty()) continue;
-        const glm::vec3 position(pose(context.scene, context.scene.lights[i])[3]);
+        const glm::vec3 position(node_pose(context.scene, context.scene.lights[i].node)[3]);
         const bool near_moving = context.scene.lights[i].type == LightType::sun ||
                                  occluders.moving_within(position, context.scene.lights[i].range);
         for (std::size_t face = 0; face < light.tiles.size(); ++face) {

@@ -94,10 +94,11 @@ void ShadowDepth::draw_faces(const GpuScene& gpu, const DrawList& list, int view
     glBindSampler(0, 0);  // the scene's textures carry their own sampling
     list.draw(
         gpu,
-        [&](int index) {
-            const GpuScene::GpuMaterial& material = gpu.material(index);
+        [&](DrawList::Surfaces surfaces) {
+            const GpuScene::GpuMaterial& material = gpu.material(surfaces.material);
             if (material.double_sided && fronts) return false;
             if (!fronts) (material.double_sided ? glDisable : glEnable)(GL_CULL_FACE);
+            glFrontFace(surfaces.mirrored ? GL_CW : GL_CCW);
             const gl::Program*& program = programs[material.alpha_mask];
             if (program == nullptr) {
                 program = &shaders_.get(depth_program, {{"ALPHA_MASK", material.alpha_mask}});

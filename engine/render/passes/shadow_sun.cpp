@@ -107,7 +107,7 @@ ShadowSunPass::Output ShadowSunPass::add(FrameContext& context) {
     }
     resize(context.settings);
     const Light& light = context.scene.lights[*sun];
-    fit(context, -glm::vec3(context.scene.nodes[light.node].world[2]));
+    fit(context, -glm::vec3(node_pose(context.scene, light.node)[2]));
 
     const ShadowCasters casters(context.scene, context.gpu);
     Output out{context.passes.import("sun cascades", cascades_), context.passes.import("sun static", static_)};

@@ -175,15 +175,14 @@ void TransparentPass::draw_instance(const FrameContext& frame, const gl::Program
     const GpuScene::MeshRange& range = frame.gpu.range(instance.mesh);
     frame.gpu.bind();
     visible_.bind(GL_SHADER_STORAGE_BUFFER, BINDING_VISIBLE_INSTANCES);
-    bind_material(shader, material);
+    bind_material(shader, material, instance.mirrored);
     const auto draw_faces = [&](GLenum cull) {
-        gl::apply({.depth_test = true, .cull = cull, .blend = gl::Blend::over});
+        gl::apply({.depth_test = true, .cull = cull, .clockwise = instance.mirrored, .blend = gl::Blend::over});
         const std::uintptr_t offset = range.first_index * sizeof(std::uint32_t);
         glDrawElementsInstancedBaseVertexBaseInstance(GL_TRIANGLES, static_cast<GLsizei>(range.index_count),
                                                       GL_UNSIGNED_INT, reinterpret_cast<const void*>(offset), 1,
                                                       range.base_vertex, index);
     };
-    if (is_mirrored(frame.scene, instance)) return draw_faces(GL_NONE);
     // The far side of a two-sided body is seen through its near side.
     if (material.double_sided) draw_faces(GL_FRONT);
     draw_faces(GL_BACK);

@@ -51,6 +51,11 @@ TEST_F(Files, JsonErrorHasPathLineAndColumn) {
     EXPECT_THAT([&] { (void)read_json(folder_ / "bad.json"); },
                 ThrowsMessage<Error>(AllOf(HasSubstr("bad.json"), HasSubstr("line 3"), HasSubstr("column"),
                                            testing::Not(HasSubstr("\n")))));
+    for (const char bracket : {'[', '{'}) {
+        write_text(folder_ / "deep.json", std::string(100'000, bracket));
+        EXPECT_THAT([&] { (void)read_json(folder_ / "deep.json"); },
+                    ThrowsMessage<Error>(AllOf(HasSubstr("deep.json: "), HasSubstr("nested deeper than 100"))));
+    }
     write_text(folder_ / "good.json", R"({"a": [1, 2]})");
     EXPECT_EQ(read_json(folder_ / "good.json").at("a").at(1), 2);
 }

@@ -84,12 +84,40 @@ TEST(GeometryMask, WithoutAPictureTheFactorDecides) {
     EXPECT_EQ(clear.lit_by_sun({-2, 0, 1}, {1, 0, 0}, 0, 10, {0, 1, 0}).size(), 1u);
 }
 
-TEST(GeometryMask, AgreesWithShadowRaysThroughANoisyTiledMask) {
+TEST(GeometryMask, VertexAlphaMultipliesThePictures) {
+    // Alpha of the vertices falls from 1 to 0 along x: times the ramp of two texels, rising from u = 1/4 to 3/4.
+    SceneOfTriangles s = masked({2, 1}, {0, 255}, 0.125f);
+    for (Vertex& vertex : s.scene.meshes[0].vertices) vertex.color.a = 1 - vertex.uv.x;
+    // (2 u - 1/2) (1 - u) = 1/8 at u = (5 - sqrt 5) / 8 = 0.3455 and (5 + sqrt 5) / 8 = 0.9045, of which the latter
+    // lies behind u = 3/4. There the picture falls: (5/2 - 2 u) (1 - u) = 1/8 at u = (9 - sqrt 5) / 8 = 0.8455.
+    // Before u = 1/4: (1/2 - 2 u) (1 - u) = 1/8 at u = (5 - sqrt 13) / 8.
+    const double first = (5 - std::sqrt(13)) / 8, begin = (5 - std::sqrt(5)) / 8, end = (9 - std::sqrt(5)) / 8;
+    const Geometry geometry(s.scene, true);
+    expect_dark(geometry.lit_by_sun({-2, 0, 1.1}, {1, 0, 0}, 0, 10, {0, 1, 0}),
+                {{2, 2 + 4 * first}, {2 + 4 * begin, 2 + 4 * end}}, 0, 10);
+    EXPECT_FALSE(geometry.closest_hit({4 * begin - 0.01, 5, 1.1}, {0, -1, 0}, 0));
+    EXPECT_TRUE(geometry.closest_hit({4 * begin + 0.01, 5, 1.1}, {0, -1, 0}, 0));
+    // Without a picture: half way.
+    s.scene.materials[0].base_color_picture = -1;
+    s.scene.materials[0].alpha_cutoff = 0.5f;
+    expect_dark(Geometry(s.scene, true).lit_by_sun({-2, 0, 1.1}, {1, 0, 0}, 0, 10, {0, 1, 0}), {{2, 4}}, 0, 10);
+}
+
+/// Of the noisy mask below: how it is read beyond its edges and between its texels, and whether vertices have
+/// alpha.
+class NoisyMask : public testing::TestWithParam<std::tuple<Wrap, bool, bool>> {};
+
+TEST_P(NoisyMask, AgreesWithShadowRays) {
+    const auto [wrap, nearest, vertex_alpha] = GetParam();
     std::mt19937 random(23);
     std::uniform_int_distribution<int> byte(0, 255);
     std::vector<std::uint8_t> alpha(8 * 5);
     for (std::uint8_t& a : alpha) a = static_cast<std::uint8_t>(byte(random));
-    const SceneOfTriangles s = masked({8, 5}, alpha, 0.5f, 1, 3);
+    SceneOfTriangles s = masked({8, 5}, alpha, vertex_alpha ? 0.25f : 0.5f, 1, 3);
+    s.scene.pictures[0].sampling = {.u = wrap, .v = wrap, .nearest = nearest};
+    if (vertex_alpha)
+        for (std::size_t i = 0; i < 4; ++i)
+            s.scene.meshes[0].vertices[i].color.a = 0.3f + 0.2f * static_cast<float>(i);
     const Geometry geometry(s.scene, true);
     std::uniform_real_distribution<double> unit(0, 1);
     int dark = 0, asked = 0;
@@ -115,6 +143,10 @@ TEST(GeometryMask, AgreesWithShadowRaysThroughANoisyTiledMask) {
     EXPECT_GT(dark, asked / 5);
     EXPECT_LT(dark, asked * 4 / 5);
 }
+
+INSTANTIATE_TEST_SUITE_P(Ways, NoisyMask,
+                         testing::Combine(testing::Values(Wrap::repeat, Wrap::mirror, Wrap::clamp), testing::Bool(),
+                                          testing::Bool()));
 
 }  // namespace
 }  // namespace tyndall::reference

@@ -28,6 +28,27 @@ TEST(SurfaceTexture, IsBilinearAndRepeats) {
     EXPECT_TRUE(std::isfinite(sample(picture, {1e30, -1e30}, false).r));
 }
 
+TEST(SurfaceTexture, GoesOnBeyondItsEdgesAsItsSamplingSays) {
+    Picture picture{"p", {4, 1}, {}};
+    for (const int v : {0, 51, 102, 153}) picture.rgba.insert(picture.rgba.end(), 4, static_cast<std::uint8_t>(v));
+    picture.sampling.nearest = true;
+    // Texels by place: -5 to 9.
+    const std::pair<Wrap, std::vector<int>> rows[] = {{Wrap::repeat, {3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1}},
+                                                      {Wrap::mirror, {3, 3, 2, 1, 0, 0, 1, 2, 3, 3, 2, 1, 0, 0, 1}},
+                                                      {Wrap::clamp, {0, 0, 0, 0, 0, 0, 1, 2, 3, 3, 3, 3, 3, 3, 3}}};
+    for (const auto& [wrap, texels] : rows)
+        for (int i = 0; i < 15; ++i) {
+            picture.sampling.u = wrap;
+            for (const double within : {0.01, 0.5, 0.99})
+                EXPECT_NEAR(sample(picture, {(i - 5 + within) / 4, 0}, false).r,
+                            texels[static_cast<std::size_t>(i)] / 5.0, 1e-12)
+                    << int(wrap) << " " << i;
+        }
+    picture.sampling = {.u = Wrap::clamp};
+    EXPECT_NEAR(sample(picture, {0.25, 0}, false).r, 0.1, 1e-12);
+    EXPECT_NEAR(sample(picture, {0.01, 0}, false).r, 0, 1e-12);
+}
+
 TEST(SurfaceTexture, DecodesColourBeforeItFilters) {
     const Picture picture{"p", {2, 1}, {0, 0, 0, 0, 188, 10, 255, 188}};
     // IEC 61966-2-1: 188 is 0.5029, 10 lies on the linear part.
@@ -50,7 +71,7 @@ class SurfaceAt : public testing::Test {
     Mesh& mesh() { return built_.scene.meshes[0]; }
     Material& material() { return built_.scene.materials[0]; }
     int picture(std::vector<std::uint8_t> rgba) {
-        built_.scene.pictures.push_back({"p", {1, 1}, std::move(rgba)});
+        built_.scene.pictures.push_back({"p", {1, 1}, std::move(rgba), {}});
         return static_cast<int>(built_.scene.pictures.size()) - 1;
     }
     [[nodiscard]] Surface seen_from(dvec3 eye, dvec3 at = {0.3, 0, 0.4}) const {
@@ -77,6 +98,9 @@ TEST_F(SurfaceAt, FactorsAndTexturesMultiply) {
     EXPECT_NEAR(plain.occlusion, 1, 1e-12);
     EXPECT_NEAR(plain.dielectric_f0, 0.07, 1e-7);
 
+    for (Vertex& vertex : mesh().vertices) vertex.color = {0.5f, 1, 0.25f, 1};
+    expect_near(seen_from({0, 3, 0}).base_color, {0.25, 0.25, 0.25}, 1e-7);
+    for (Vertex& vertex : mesh().vertices) vertex.color = glm::vec4(1);
     m.base_color_picture = m.emissive_picture = picture({255, 188, 0, 255});
     m.metallic_roughness_picture = m.occlusion_picture = picture({51, 102, 204, 0});
     const Surface s = seen_from({0, 3, 0});

@@ -45,10 +45,10 @@ TEST(GpuLight, HoldsTheSpotLawOfTheFormat) {
     light.outer_cone = 0.6f;
     light.intensity = {1, 2, 3};
     const glm::mat4 world = glm::rotate(glm::translate(glm::mat4(1), {1, 2, 3}), glm::radians(90.0f), {0, 1, 0});
-    const shared::GpuLight gpu = gpu_light(light, glm::scale(world, glm::vec3(2)), 5);
+    const shared::GpuLight gpu = gpu_light(light, world, 5);
     EXPECT_EQ(gpu.position_range, glm::vec4(1, 2, 3, 7));
     EXPECT_EQ(gpu.intensity_radius, glm::vec4(1, 2, 3, 0.01f));
-    // -Z turned by 90 degrees about Y is -X; scale does not show.
+    // -Z turned by 90 degrees about Y is -X.
     EXPECT_NEAR(glm::distance(glm::vec3(gpu.direction_type), glm::vec3(-1, 0, 0)), 0, 1e-6);
     EXPECT_EQ(gpu.cone_shadow.z, 5);
     EXPECT_NEAR(spot_law(gpu, 0.3), 1, 1e-5);

@@ -253,22 +253,22 @@ TEST_F(Gltf, NodesMatricesAndInstancing) {
     EXPECT_NEAR(glm::distance(glm::vec3(p), glm::vec3(2, 10, 7)), 0, 1e-5f);
 }
 
-TEST_F(Gltf, MirroredNodesKeepTheirFrontFaces) {
+TEST_F(Gltf, MirroredAndFlattenedNodesKeepTheMeshAsItIs) {
     GltfBuilder b;
     b.triangle();
     b.node({{"mesh", 0}, {"scale", {-1, 1, 1}}});
     b.node({{"mesh", 0}, {"matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1}}});
+    b.node({{"mesh", 0}, {"matrix", {0, 0, 3, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1}}});
+    b.node({{"mesh", 0}, {"matrix", {0, 1, 0, 0, -2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1}}});
     const Scene scene = load(b);
-    EXPECT_EQ(scene.meshes.size(), 2u);
-    for (const Node& node : scene.nodes) {
-        const Mesh& mesh = scene.meshes[static_cast<std::size_t>(node.meshes.at(0))];
-        std::vector<glm::vec3> p;
-        for (const glm::vec3 corner : corners(mesh)) p.emplace_back(node.world * glm::vec4(corner, 1));
-        const glm::vec3 faces = glm::normalize(glm::cross(p[1] - p[0], p[2] - p[0]));
-        const glm::vec3 normal =
-            glm::normalize(glm::transpose(glm::inverse(glm::mat3(node.world))) * mesh.vertices[0].normal);
-        EXPECT_NEAR(glm::dot(faces, normal), 1, 1e-6f);
-    }
+    EXPECT_EQ(scene.meshes.size(), 1u);
+    const bool mirrored[] = {false, true, true, false, false};
+    for (std::size_t i = 0; i < 5; ++i) EXPECT_EQ(mirrors(scene.nodes[i].world), mirrored[i]) << i;
+    EXPECT_EQ(scene.nodes[3].scale, glm::vec3(3, 0, 0));
+    EXPECT_NEAR(glm::distance(glm::vec3(scene.nodes[3].world * glm::vec4(1, 1, 1, 1)), glm::vec3(0, 0, 3)), 0,
+                1e-6f);
+    EXPECT_NEAR(glm::distance(glm::vec3(scene.nodes[4].world * glm::vec4(1, 1, 1, 1)), glm::vec3(-2, 1, 0)), 0,
+                1e-6f);
 }
 
 TEST_F(Gltf, OnlyTheDefaultSceneIsLoaded) {
