@@ -16,9 +16,11 @@ float lamp_attenuation(float distance_squared, float radius, float inverse_range
     return clamp(1.0f - s * s, 0.0f, 1.0f) / max(distance_squared, r * r);
 }
 
-// KHR_lights_punctual's cone: x scale, y offset for spot_cone, from the cosines of the inner and outer half angles.
+// KHR_lights_punctual's cone: x scale, y offset for spot_cone, from the cosines of the inner and outer half angles. Its
+// floor of 0.001 under their difference would dim any cone of less than 2.6 degrees: here it is that share of the
+// largest difference that the outer angle allows.
 vec2 spot_scale_offset(float cos_inner, float cos_outer) {
-    float scale = 1.0f / max(0.001f, cos_inner - cos_outer);
+    float scale = 1.0f / max(0.001f * max(1.0f - cos_outer, 1.0e-7f), cos_inner - cos_outer);
     return vec2(scale, -cos_outer * scale);
 }
 

@@ -231,7 +231,7 @@ shared::GpuLight point_light(glm::vec3 position, float intensity, float range, f
 
 shared::GpuLight spot_light(glm::vec3 position, glm::vec3 direction, float intensity, float cos_inner,
                             float cos_outer, float range) {
-    const float scale = 1 / std::max(0.001F, cos_inner - cos_outer);
+    const float scale = 1 / std::max(0.001F * (1 - cos_outer), cos_inner - cos_outer);
     return {.position_range = {position, range},
             .intensity_radius = {glm::vec3(intensity), 0.01F},
             .direction_type = {glm::normalize(direction), LIGHT_SPOT},

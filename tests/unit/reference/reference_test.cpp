@@ -259,7 +259,7 @@ TEST(Reference, SpotLamp) {
         spot.outer_cone = 0.5f;
         w.medium(Shape::global, 0.1f, 0.02f, 0.5f);
         const dvec3 axis = glm::normalize(dvec3(-0.2f, -1, 0.3f)), lamp(1, 2, -5), d(0, 0, -1);
-        const double scale = 1 / std::max(0.001, std::cos(double(inner)) - std::cos(0.5));
+        const double scale = 1 / std::max(0.001 * (1 - std::cos(0.5)), std::cos(double(inner)) - std::cos(0.5));
         const double sigma_t = double(0.1f) + double(0.02f);
         const auto f = [&](double t) {
             const dvec3 offset = t * d - lamp;

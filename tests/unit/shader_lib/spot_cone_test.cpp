@@ -19,7 +19,8 @@ using namespace tyndall;
 struct Cone {
     double inner, outer;  // half angles
     [[nodiscard]] double law(double cosine) const {
-        const double c = (cosine - std::cos(outer)) / std::max(0.001, std::cos(inner) - std::cos(outer));
+        const double c =
+            (cosine - std::cos(outer)) / std::max(0.001 * (1 - std::cos(outer)), std::cos(inner) - std::cos(outer));
         const double clamped = std::clamp(c, 0.0, 1.0);
         return clamped * clamped;
     }
