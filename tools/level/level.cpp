@@ -14,7 +14,6 @@ Level build_level() {
     Level level;
     level.name = "abbey";
     level.exposure = 5.9f;
-    level.extras["sky"]["turbidity"] = 3.0f;
     const Lamps lamps = make_lamps(level);
     const Props props = make_props(level);
     add_sun(level);
