@@ -75,7 +75,8 @@ bool is_a(const Json& value, Kind kind) {
     return false;
 }
 
-/// Of the members that are read, what glTF 2.0 and the supported extensions say they are. [] stands for each element.
+/// Of the members that are read, what glTF 2.0 and the supported extensions say they are. [] stands for each
+/// element.
 struct Row {
     const char* path;
     Kind kind;
@@ -230,8 +231,8 @@ void check(const Json& json, std::string_view path, Kind kind, const std::string
     check(json[key], path.substr(key.size()), kind, where.empty() ? key : where + "." + key, fail);
 }
 
-/// Says otherwise what a file says rightly and tinygltf misunderstands: "+" in a URI, which it takes for a space, and skins
-/// without matrices, which it refuses. Whether there was any.
+/// Says otherwise what a file says rightly and tinygltf misunderstands: "+" in a URI, which it takes for a space,
+/// and skins without matrices, which it refuses. Whether there was any.
 bool say_otherwise(Json& document) {
     bool any = false;
     if (document.contains("skins"))
@@ -259,7 +260,8 @@ std::uint32_t word(const std::vector<std::uint8_t>& bytes, std::size_t offset) {
 
 /// Where the JSON of a binary file ends; it begins at 20.
 std::size_t check_chunks(const std::vector<std::uint8_t>& bytes, const Fail& fail) {
-    const std::size_t size = std::max<std::size_t>(word(bytes, 8), 20), json_end = 20 + std::size_t{word(bytes, 12)};
+    const std::size_t size = std::max<std::size_t>(word(bytes, 8), 20),
+                      json_end = 20 + std::size_t{word(bytes, 12)};
     const std::size_t end = json_end < size ? json_end + 8 + word(bytes, json_end) : json_end;
     if (size > bytes.size() || end > size)
         fail(fmt::format("cut off or damaged: it has {} bytes, its header and chunks ask for {}", bytes.size(),

@@ -52,7 +52,8 @@ TEST_F(MaterialSampling, PicturesAreReadAsTheirSamplersSay) {
     scene().materials.back().base_color_picture = 0;
     for (Vertex& v : scene().meshes[0].vertices) v.uv = v.uv * 5.0f - glm::vec2(1.6f, 2.2f);
     std::vector<Sampling> ways;
-    for (const auto& [u, v] : {std::pair(Wrap::repeat, Wrap::mirror), {Wrap::clamp, Wrap::repeat}, {Wrap::mirror, Wrap::clamp}})
+    for (const auto& [u, v] :
+         {std::pair(Wrap::repeat, Wrap::mirror), {Wrap::clamp, Wrap::repeat}, {Wrap::mirror, Wrap::clamp}})
         for (const bool nearest : {false, true}) ways.push_back({.u = u, .v = v, .nearest = nearest});
     ways.push_back({.minification = GL_NEAREST});
     ways.push_back({.nearest = true, .minification = GL_LINEAR_MIPMAP_NEAREST});
@@ -64,7 +65,8 @@ TEST_F(MaterialSampling, PicturesAreReadAsTheirSamplersSay) {
         Image traced(size, 3);
         for (int y = 0; y < size.y; ++y)
             for (int x = 0; x < size.x; ++x)
-                for (int c = 0; c < 3; ++c) traced.at(x, y)[c] = static_cast<float>(traced_albedo(geometry, x, y)[c]);
+                for (int c = 0; c < 3; ++c)
+                    traced.at(x, y)[c] = static_cast<float>(traced_albedo(geometry, x, y)[c]);
         const double error = test::worst_error(drawn, traced);
         EXPECT_LT(error, 0.03) << int(way.u) << " " << int(way.v) << " " << way.nearest << " " << way.minification;
         worst = std::max(worst, error);
@@ -101,8 +103,8 @@ TEST_F(MaterialSampling, VertexAlphaCutsMasksAndTheirShadows) {
     const double error = test::worst_error(drawn, traced);
     std::printf("worst error of a mask by vertex alpha: %.4f\n", error);
     EXPECT_LT(error, 0.02);
-    // At 0.5 m the pane's right half, x from 0 to 0.8 m, is seen up to 0.8 * 2 / 1.5 = 1.07 m; its shadow reaches from
-    // -0.5 to 0.3 m.
+    // At 0.5 m the pane's right half, x from 0 to 0.8 m, is seen up to 0.8 * 2 / 1.5 = 1.07 m; its shadow reaches
+    // from -0.5 to 0.3 m.
     const auto pixel = [&](double x) { return static_cast<int>((x / 4 + 0.5) * size.x); };
     EXPECT_GT(drawn.at(pixel(-0.8), 20)[0], 0.5f);
     EXPECT_LT(drawn.at(pixel(-0.3), 20)[0], 0.01f);

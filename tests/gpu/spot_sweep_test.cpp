@@ -82,8 +82,8 @@ TEST_F(SpotSweep, OnSurfacesTheLawDividesItFromAPointLamp) {
                 of_drawn = std::max(of_drawn, error(drawn, drawn_all));
                 of_traced = std::max(of_traced, error(traced, traced_all));
             }
-        EXPECT_LT(std::max(of_drawn, of_traced), 0.02) << "cone " << cone.inner << " " << cone.outer << " drawn "
-                                                       << of_drawn << " traced " << of_traced;
+        EXPECT_LT(std::max(of_drawn, of_traced), 0.02)
+            << "cone " << cone.inner << " " << cone.outer << " drawn " << of_drawn << " traced " << of_traced;
         worst_drawn = std::max(worst_drawn, of_drawn);
         worst_traced = std::max(worst_traced, of_traced);
     }
@@ -103,7 +103,8 @@ TEST_F(SpotSweep, InTheAirARayThroughTheBeamGathersIt) {
         medium.sigma_s = glm::vec3(static_cast<float>(sigma));
         builder.scene.media = {medium};
         view_ = look_at({0, 0, 6}, {0, 0, 0}, 0.002f, 0.1f, 1);
-        // Light that goes through the angle phi from the axis comes from height / cos(phi): 1 / d² dz is dphi / height.
+        // Light that goes through the angle phi from the axis comes from height / cos(phi): 1 / d² dz is dphi /
+        // height.
         double expected = 0;
         constexpr int steps = 20000;
         for (int i = 0; i < steps; ++i)

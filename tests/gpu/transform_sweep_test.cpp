@@ -57,7 +57,8 @@ std::vector<Chain> transforms() {
         all.push_back({{.scale = mirror}});
         all.push_back({{.rotation = rotation(), .scale = mirror * glm::vec3(0.5f, 1.2f, 0.8f)}});
         // Scaled across the axes of a rotated child: sheared.
-        all.push_back({{.rotation = rotation(), .scale = {1, 0.6f, -1.2f}}, {.rotation = rotation(), .scale = mirror}});
+        all.push_back(
+            {{.rotation = rotation(), .scale = {1, 0.6f, -1.2f}}, {.rotation = rotation(), .scale = mirror}});
     }
     all.push_back({{.scale = glm::vec3(1e-12f)}, {.scale = {-1e12f, 1e12f, 1e12f}}});
     all.push_back({{.scale = glm::vec3(1e-18f)}, {.rotation = rotation(), .scale = glm::vec3(1e18f)}});
@@ -81,14 +82,15 @@ Mesh dome() {
     for (std::uint32_t i = 0; i < rings; ++i)
         for (std::uint32_t j = 0; j < around; ++j) {
             const std::uint32_t k = i * (around + 1) + j, below = k + around + 1;
-            for (const std::uint32_t index : {k, below, below + 1, k, below + 1, k + 1}) mesh.indices.push_back(index);
+            for (const std::uint32_t index : {k, below, below + 1, k, below + 1, k + 1})
+                mesh.indices.push_back(index);
         }
     for (const Vertex& vertex : mesh.vertices) mesh.bounds.add(vertex.position);
     return mesh;
 }
 
-/// The mesh as a transform makes it look: positions by the transform; normals by its inverse transpose, to the outside;
-/// faces wound so that their outside is the front; the bitangent on the side of the transform's.
+/// The mesh as a transform makes it look: positions by the transform; normals by its inverse transpose, to the
+/// outside; faces wound so that their outside is the front; the bitangent on the side of the transform's.
 Mesh worked_in(Mesh mesh, const dmat4& m) {
     const dmat3 linear(m), carries_normals(glm::transpose(glm::inverse(linear)));
     const bool mirrored = glm::dot(glm::cross(linear[0], linear[1]), linear[2]) < 0;
@@ -158,9 +160,8 @@ Scene loaded(const Mesh& mesh, const Chain& chain, Said said) {
         const auto floats = [](const auto& v, int n) { return std::vector<float>(&v.x, &v.x + n); };
         const nlohmann::json of_instance = {
             {"TRANSLATION", b.accessor(floats(step.translation, 3), GltfBuilder::f32, "VEC3")},
-            {"ROTATION",
-             b.accessor<float>({step.rotation.x, step.rotation.y, step.rotation.z, step.rotation.w},
-                               GltfBuilder::f32, "VEC4")},
+            {"ROTATION", b.accessor<float>({step.rotation.x, step.rotation.y, step.rotation.z, step.rotation.w},
+                                           GltfBuilder::f32, "VEC4")},
             {"SCALE", b.accessor(floats(step.scale, 3), GltfBuilder::f32, "VEC3")}};
         b.append("nodes", {{"extensions", {{"EXT_mesh_gpu_instancing", {{"attributes", of_instance}}}}}});
         if (nodes > 0) b.doc["nodes"][nodes - 1]["children"] = {nodes};
@@ -270,7 +271,8 @@ TEST_F(TransformSweep, SurfacesLookAsTheirTransformMakesThem) {
             const Image wanted = draw(expected), truth = trace(expected);
             renderer_.prepare(placed);
             const double drawn = worst_error(draw(placed), wanted), traced = worst_error(trace(placed), truth);
-            // Shadow maps are compared with the truth elsewhere: near the terminator of a slanted normal they differ.
+            // Shadow maps are compared with the truth elsewhere: near the terminator of a slanted normal they
+            // differ.
             placed.lights[0].shadow = false;
             const double between = worst_error(draw(placed), trace(placed));
             if (kind == Lit::sun) {
@@ -296,8 +298,8 @@ TEST_F(TransformSweep, SurfacesLookAsTheirTransformMakesThem) {
     EXPECT_LT(worst_between, 0.02);
 }
 
-// Squares that face +Y, above the floor and seen from above, turned or mirrored to face -Y: their backs are not seen,
-// whatever else the scene holds.
+// Squares that face +Y, above the floor and seen from above, turned or mirrored to face -Y: their backs are not
+// seen, whatever else the scene holds.
 TEST_F(TransformSweep, OneMirroredNodeLeavesCullingToTheOthers) {
     view_ = look_at({0, 4, 0}, {0, 0, 0}, 0.9f, 0.1f, 1);
     options_.layer = "depth";
@@ -325,6 +327,43 @@ TEST_F(TransformSweep, OneMirroredNodeLeavesCullingToTheOthers) {
         EXPECT_NEAR(std::min(image->at(10, pixel(0.9f, 1))[0], image->at(10, pixel(-0.9f, 1))[0]), 3, 1e-3);
     }
     EXPECT_EQ(renderer_.draw_counts().draw_calls, 2u);  // one for each winding
+}
+
+// A ball that a scale of 0 flattens is a disc, lit as a plane is.
+TEST_F(TransformSweep, FlattenedSurfacesAreLitAsPlanes) {
+    view_ = look_at({0.03f, 3, 0.01f}, {0.02f, 0, 0}, 0.4f, 0.1f, 1);  // within the disc; no ray along an edge
+    const glm::quat lean = glm::normalize(glm::quat(1, 0.3f, -0.5f, 0.2f));
+    const glm::quat back = glm::angleAxis(-pi / 2, glm::vec3(1, 0, 0));
+    const Chain chains[] = {{{.scale = {1, 0, 1}}},
+                            {{.scale = {-1, 0, 1}}},
+                            {{.rotation = back, .scale = {1, 1, 0}}},
+                            {{.scale = {1, 0, 1}}, {.rotation = lean}},
+                            {{.scale = {1, 0, -2}}, {.rotation = lean, .scale = {1, -1, 1}}},
+                            {{.scale = {1, 1e-20f, 1}}}};
+    double worst = 0;
+    for (const Lit kind : lights) {
+        test::SceneBuilder plane, ball;
+        plane.ground({0, 0, 0}, 4);
+        ball.sphere({0, 0, 0}, 1);
+        Scene expected = std::move(plane.finish()), scene = std::move(ball.finish());
+        set_light(expected, kind, plain_light());
+        expected.lights[0].shadow = false;
+        renderer_.prepare(expected);
+        const Image wanted = draw(expected), truth = trace(expected);
+        for (const Chain& chain : chains) {
+            Scene flat = scene;
+            flat.nodes.clear();
+            flat.nodes[static_cast<std::size_t>(place(flat, chain))].meshes = {0};
+            set_light(flat, kind, plain_light());
+            flat.lights[0].shadow = false;
+            renderer_.prepare(flat);
+            const double drawn = worst_error(draw(flat), wanted), traced = worst_error(trace(flat), truth);
+            EXPECT_LT(std::max(drawn, traced), 0.02) << "light " << int(kind) << " chain " << &chain - chains
+                                                     << " drawn " << drawn << " traced " << traced;
+            worst = std::max({worst, drawn, traced});
+        }
+    }
+    std::printf("worst error of flattened surfaces: %.4f\n", worst);
 }
 
 /// Where -Z of the innermost node points, a scale of 0 being the limit of small ones.
@@ -356,9 +395,9 @@ TEST_F(TransformSweep, LightsShineAsTheirTransformTurnsThem) {
         for (std::size_t i = 0; i < chains.size(); ++i) {
             const glm::vec3 at = plain_light().front().translation;
             Chain chain = chains[i];
-            chain.insert(chain.begin(), {.translation = at,
-                                         .rotation = glm::quat(glm::rotation(shines_along(chain),
-                                                                             glm::normalize(-dvec3(at))))});
+            chain.insert(chain.begin(),
+                         {.translation = at,
+                          .rotation = glm::quat(glm::rotation(shines_along(chain), glm::normalize(-dvec3(at))))});
             Scene scene = empty_stage();
             set_light(scene, kind, chain);
             renderer_.prepare(scene);

@@ -7,8 +7,8 @@
 
 namespace tyndall::test {
 
-/// The largest difference of a picture from one that it must equal, relative to the latter. A pixel may be as any that
-/// lies beside it there, as edges may fall to either side. Not finite where the picture is not.
+/// The largest difference of a picture from one that it must equal, relative to the latter. A pixel may be as any
+/// that lies beside it there, as edges may fall to either side. Not finite where the picture is not.
 inline double worst_error(const Image& picture, const Image& expected) {
     double worst = 0;
     const glm::ivec2 last = expected.size - 1;

@@ -1,5 +1,5 @@
-// Files that are right and were refused or read as something else, files that are wrong and were accepted, and what is
-// said of what is left out.
+// Files that are right and were refused or read as something else, files that are wrong and were accepted, and what
+// is said of what is left out.
 #include <gmock/gmock.h>
 #include <spdlog/sinks/ostream_sink.h>
 #include <spdlog/spdlog.h>
@@ -45,8 +45,9 @@ class GltfFiles : public SceneFolderTest {
         }
     }
     void expect_error(const GltfBuilder& builder, const std::string& fragment) const {
-        EXPECT_THAT([&] { (void)load(builder); },
-                    ThrowsMessage<Error>(AllOf(HasSubstr("scene.gltf"), HasSubstr(fragment), Not(HasSubstr("\n")))));
+        EXPECT_THAT(
+            [&] { (void)load(builder); },
+            ThrowsMessage<Error>(AllOf(HasSubstr("scene.gltf"), HasSubstr(fragment), Not(HasSubstr("\n")))));
     }
     [[nodiscard]] std::string png() const {
         write_image(folder / "picture.png", Image({2, 2}, 4));
@@ -125,7 +126,8 @@ TEST_F(GltfFiles, SamplersAreKeptAndAPictureReadInTwoWaysIsTwo) {
     GltfBuilder b;
     b.triangle()["material"] = 0;
     b.doc["images"] = {{{"bufferView", b.view(png())}, {"mimeType", "image/png"}}};
-    b.doc["samplers"] = {{{"wrapS", 33071}, {"wrapT", 33648}, {"magFilter", 9728}, {"minFilter", 9984}}, json::object()};
+    b.doc["samplers"] = {{{"wrapS", 33071}, {"wrapT", 33648}, {"magFilter", 9728}, {"minFilter", 9984}},
+                         json::object()};
     b.doc["textures"] = {{{"source", 0}, {"sampler", 0}}, {{"source", 0}, {"sampler", 1}}, {{"source", 0}}};
     b.doc["materials"] = {{{"emissiveTexture", {{"index", 0}}},
                            {"occlusionTexture", {{"index", 1}}},
@@ -170,8 +172,8 @@ TEST_F(GltfFiles, ASkinsJointsAlonePlaceItsMesh) {
     primitive = b.doc["meshes"][0]["primitives"][0];
     const int weights = b.accessor<float>({1, 0, 0, 0, 1, 0, 0, 0, 0.25f, 0.75f, 0, 0}, GltfBuilder::f32, "VEC4");
     b.doc["meshes"][0]["primitives"][0]["attributes"]["WEIGHTS_0"] = weights;
-    // Two joints below a root that is moved by (10, 0, 0); the second is mirrored in z and raised by 4. The first one's
-    // inverse bind matrix takes the root's movement back.
+    // Two joints below a root that is moved by (10, 0, 0); the second is mirrored in z and raised by 4. The first
+    // one's inverse bind matrix takes the root's movement back.
     std::vector<float> inverse(32, 0);
     for (std::size_t i = 0; i < 4; ++i) inverse[i * 5] = inverse[16 + i * 5] = 1;
     inverse[12] = -10;
@@ -277,9 +279,8 @@ TEST_F(GltfFiles, AnimationsThatLeaveTheRangeOfNumbersAreRefused) {
         b.triangle();
         const int times = b.accessor<float>({0, 1}, GltfBuilder::f32, "SCALAR");
         const int values = b.accessor<float>({1, 1, 1, 1e30f, 1, 1}, GltfBuilder::f32, "VEC3");
-        b.doc["animations"] = {
-            {{"samplers", {{{"input", times}, {"output", values}}}},
-             {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", path}}}}}}}};
+        b.doc["animations"] = {{{"samplers", {{{"input", times}, {"output", values}}}},
+                                {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", path}}}}}}}};
         expect_error(b, "its animation may take it");
     }
     GltfBuilder b;
