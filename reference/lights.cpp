@@ -9,9 +9,14 @@ namespace {
 
 constexpr double least_radius = 1e-3;  ///< m: 1/d² has no finite integral through a point
 
+/// Of its node, without scale.
+glm::mat4 world_of(const Scene& scene, const Light& light) {
+    return node_pose(scene, light.node);
+}
+
 /// A light shines along its node's -Z.
-dvec3 axis_of(const glm::mat4& pose) {
-    return -glm::normalize(dvec3(pose[2]));
+dvec3 axis_of(const glm::mat4& world) {
+    return -glm::normalize(dvec3(world[2]));
 }
 
 bool shines(const Light& light) {
@@ -28,7 +33,7 @@ std::vector<Sun> scene_suns(const Scene& scene) {
     std::vector<Sun> suns;
     for (const Light& light : scene.lights)
         if (light.type == LightType::sun && shines(light))
-            suns.push_back({-axis_of(node_pose(scene, light.node)), dvec3(light.intensity), light.shadow});
+            suns.push_back({-axis_of(world_of(scene, light)), dvec3(light.intensity), light.shadow});
     return suns;
 }
 
@@ -36,11 +41,11 @@ std::vector<Lamp> scene_lamps(const Scene& scene) {
     std::vector<Lamp> lamps;
     for (const Light& light : scene.lights) {
         if (light.type == LightType::sun || !shines(light)) continue;
-        const glm::mat4 pose = node_pose(scene, light.node);
+        const glm::mat4 world = world_of(scene, light);
         const double cos_inner = std::cos(static_cast<double>(light.inner_cone));
         const double cos_outer = std::cos(static_cast<double>(light.outer_cone));
-        lamps.push_back({.position = dvec3(pose[3]),
-                         .axis = axis_of(pose),
+        lamps.push_back({.position = dvec3(world[3]),
+                         .axis = axis_of(world),
                          .intensity = dvec3(light.intensity),
                          .range = light.range > 0 ? light.range : std::numeric_limits<double>::infinity(),
                          .radius = std::max<double>(light.radius, least_radius),

@@ -123,6 +123,16 @@ float load_dielectric_f0(const GltfFile& file, const tinygltf::Material& from, c
     return static_cast<float>(std::min(amplitude * amplitude * factor * color, 1.0));
 }
 
+/// What an exporter leaves of a material that glTF cannot express, such as one of a volume alone.
+void tell_if_empty(const GltfFile& file, const tinygltf::Material& from, const Material& to,
+                   const std::string& what) {
+    const bool pictures = std::max({to.base_color_picture, to.metallic_roughness_picture, to.normal_picture,
+                                    to.occlusion_picture, to.emissive_picture}) >= 0;
+    const bool factors = to.base_color != glm::vec4(1) || to.metallic != 1 || to.roughness != 1;
+    if (!pictures && !factors && to.emissive == glm::vec3(0) && from.extensions.empty())
+        file.skip("{}: it says nothing of its surface, drawn as white metal", what);
+}
+
 Material load_material(const GltfFile& file, const tinygltf::Material& from, Pictures& pictures,
                        const std::string& what) {
     const tinygltf::PbrMetallicRoughness& pbr = from.pbrMetallicRoughness;
@@ -154,6 +164,7 @@ Material load_material(const GltfFile& file, const tinygltf::Material& from, Pic
     to.alpha_blend = from.alphaMode == "BLEND";
     to.alpha_cutoff = file.number(from.alphaCutoff, what + ": alphaCutoff", 0);
     to.double_sided = from.doubleSided;
+    tell_if_empty(file, from, to, what);
     return to;
 }
 

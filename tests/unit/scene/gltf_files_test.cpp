@@ -255,6 +255,10 @@ TEST_F(GltfFiles, WhatIsIgnoredIsNamedInOneLine) {
     EXPECT_THAT(log_, HasSubstr("extensions ignored: KHR_materials_transmission\n"));
     EXPECT_THAT(log_, HasSubstr("attributes ignored: COLOR_1\n"));
     EXPECT_EQ(std::ranges::count(log_, '\n'), 3);
+    // A material of a volume alone, as an exporter leaves it.
+    b.doc["materials"] = {{{"name", "fog"}, {"doubleSided", true}, {"pbrMetallicRoughness", json::object()}}};
+    (void)load_heard(b);
+    EXPECT_THAT(log_, HasSubstr("material 0 \"fog\": it says nothing of its surface, drawn as white metal\n"));
     // Of a file that is refused, the reason alone is told.
     b.doc["nodes"][0]["mesh"] = 7;
     EXPECT_THROW((void)load_heard(b), Error);
