@@ -22,9 +22,9 @@ constexpr float gravity = 9.81f;
 constexpr float pointer_gain = 0.0022f;  // rad per pixel
 constexpr float stick_gain = 2.6f;       // rad/s
 constexpr float max_pitch = 1.54f;
-constexpr float longest_physics_step = 1.0f / 120.0f;  // s
-constexpr float stair_time = 0.08f;                    // s in which the eye makes up for all but 1/e of a step
-constexpr float fall_margin = 30.0f;                   // m below the level's lowest point
+constexpr double longest_step = 1.0 / 120;  // s, of what moves
+constexpr float stair_time = 0.08f;         // s in which the eye makes up for all but 1/e of a step
+constexpr float fall_margin = 30.0f;        // m below the level's lowest point
 
 btVector3 to_bullet(glm::vec3 v) {
     return {v.x, v.y, v.z};
@@ -145,31 +145,41 @@ bool Player::on_ground() const {
 }
 
 bool Player::update(const Input& input, double dt, bool look_with_pointer) {
-    const float step = static_cast<float>(dt);
-    look(input, look_with_pointer, step);
+    if (look_with_pointer) turn(glm::vec2(input.pointer_delta) * pointer_gain);
+    if (dt <= 0) return false;
     const auto axis = [&](Key positive, Key negative) {
         return static_cast<float>(input.down(positive)) - static_cast<float>(input.down(negative));
     };
     const glm::vec2 stick = input.gamepad.left;  // +y is down
     glm::vec2 move(axis(Key::d, Key::a) + stick.x, axis(Key::w, Key::s) - stick.y);
     if (glm::length(move) > 1) move = glm::normalize(move);
-    if (flying_)
-        fly(input, move, step);
-    else
-        walk(input, move, step);
-    if (flying_ || eye_.y >= lowest_) return false;
+    btKinematicCharacterController& character = *world_->character;
+    if (!flying_ && (input.pressed(Key::space) || input.gamepad.jump) && character.onGround()) character.jump();
+
+    // Equal steps that end with the frame: with a fixed step, frames would hold two or three of them in turn.
+    const int steps = std::max(1, static_cast<int>(std::ceil(dt / longest_step - 1e-6)));
+    const float step = static_cast<float>(dt / steps);
+    for (int i = 0; i < steps; ++i) {
+        turn(input.gamepad.right * stick_gain * step);
+        if (flying_)
+            fly_step(input, move, step);
+        else
+            walk_step(input, move, step);
+    }
+    if (flying_) return false;
+    stair_offset_ = std::clamp(stair_offset_, -step_height, step_height);
+    eye_ = world_->eye() + glm::vec3(0, stair_offset_, 0);
+    if (eye_.y >= lowest_) return false;
     place(start_, start_direction_);
     return true;
 }
 
-void Player::look(const Input& input, bool pointer, float dt) {
-    const glm::vec2 stick = input.gamepad.right * stick_gain * dt;
-    const glm::vec2 turn = pointer ? glm::vec2(input.pointer_delta) * pointer_gain : glm::vec2(0);
-    yaw_ = std::remainder(yaw_ - turn.x - stick.x, glm::two_pi<float>());
-    pitch_ = std::clamp(pitch_ - turn.y - stick.y, -max_pitch, max_pitch);
+void Player::turn(glm::vec2 angles) {
+    yaw_ = std::remainder(yaw_ - angles.x, glm::two_pi<float>());
+    pitch_ = std::clamp(pitch_ - angles.y, -max_pitch, max_pitch);
 }
 
-void Player::fly(const Input& input, glm::vec2 move, float dt) {
+void Player::fly_step(const Input& input, glm::vec2 move, float dt) {
     const float up = static_cast<float>(input.down(Key::space)) - static_cast<float>(input.down(Key::control)) +
                      input.gamepad.up - input.gamepad.down;
     const glm::vec3 right(std::cos(yaw_), 0, -std::sin(yaw_));
@@ -177,29 +187,19 @@ void Player::fly(const Input& input, glm::vec2 move, float dt) {
     eye_ += (direction() * move.y + right * move.x + glm::vec3(0, up, 0)) * speed * dt;
 }
 
-void Player::walk(const Input& input, glm::vec2 move, float dt) {
-    if (dt <= 0) return;
+void Player::walk_step(const Input& input, glm::vec2 move, float dt) {
     const glm::vec3 forward(-std::sin(yaw_), 0, -std::cos(yaw_)), right(std::cos(yaw_), 0, -std::sin(yaw_));
     const glm::vec3 velocity =
         (forward * move.y + right * move.x) * (input.down(Key::shift) ? run_speed : walk_speed);
     btKinematicCharacterController& character = *world_->character;
-    if ((input.pressed(Key::space) || input.gamepad.jump) && character.onGround()) character.jump();
-
-    // Equal steps that end with the frame: with a fixed step, frames would hold two or three of them in turn.
-    const int steps = std::max(1, static_cast<int>(std::ceil(dt / longest_physics_step)));
-    const float h = dt / static_cast<float>(steps);
-    for (int i = 0; i < steps; ++i) {
-        const bool stood = character.onGround();
-        const float before = world_->eye().y;
-        character.setWalkDirection(to_bullet(velocity * h));
-        world_->world.stepSimulation(h, 0);
-        const float drop = before - world_->eye().y;
-        if (character.onGround()) stair_offset_ += stood ? drop : std::max(drop - last_drop_, 0.0f);
-        last_drop_ = character.onGround() ? 0 : drop;
-        stair_offset_ *= std::exp(-h / stair_time);
-    }
-    stair_offset_ = std::clamp(stair_offset_, -step_height, step_height);
-    eye_ = world_->eye() + glm::vec3(0, stair_offset_, 0);
+    const bool stood = character.onGround();
+    const float before = world_->eye().y;
+    character.setWalkDirection(to_bullet(velocity * dt));
+    world_->world.stepSimulation(dt, 0);
+    const float drop = before - world_->eye().y;
+    if (character.onGround()) stair_offset_ += stood ? drop : std::max(drop - last_drop_, 0.0f);
+    last_drop_ = character.onGround() ? 0 : drop;
+    stair_offset_ *= std::exp(-dt / stair_time);
 }
 
 }  // namespace tyndall

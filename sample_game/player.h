@@ -18,8 +18,9 @@ class Player {
 
     /// Puts the eye at `eye`, looking along `direction`, at rest.
     void place(glm::vec3 eye, glm::vec3 direction);
-    /// Walks or flies for `dt` seconds. `look` says whether the pointer turns the view. True: the player fell out
-    /// of the level and stands at the start again (a camera cut).
+    /// Turns, walks or flies for `dt` seconds in equal steps of at most 1/120 s, so that slow frames lead where
+    /// fast ones do. `look` says whether the pointer turns the view. True: the player fell out of the level and
+    /// stands at the start again (a camera cut).
     bool update(const Input& input, double dt, bool look);
 
     [[nodiscard]] glm::vec3 eye() const { return eye_; }
@@ -30,9 +31,9 @@ class Player {
     [[nodiscard]] bool on_ground() const;
 
   private:
-    void look(const Input& input, bool pointer, float dt);
-    void fly(const Input& input, glm::vec2 move, float dt);
-    void walk(const Input& input, glm::vec2 move, float dt);
+    void turn(glm::vec2 angles);
+    void fly_step(const Input& input, glm::vec2 move, float dt);
+    void walk_step(const Input& input, glm::vec2 move, float dt);
 
     struct World;
     std::unique_ptr<World> world_;

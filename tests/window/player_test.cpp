@@ -93,7 +93,7 @@ TEST(Player, StandsAtEyeHeightWithoutTrembling) {
 }
 
 TEST(Player, WalksAtTheSameSpeedAtEveryFrameRate) {
-    for (const double rate : {20.0, 30.0, 60.0, 144.0}) {
+    for (const double rate : {0.5, 1.0, 5.0, 20.0, 30.0, 60.0, 144.0}) {
         Player player(BoxScene().floor().scene());
         run(player, {}, 0.5);
         const glm::vec3 from = player.eye();
@@ -118,6 +118,35 @@ TEST(Player, MovesInProportionToFramesOfUnequalLength) {
         EXPECT_NEAR(player.eye().y, last.y, 2e-3) << i;
         last = player.eye();
     }
+}
+
+TEST(Player, SlowFramesLeadWhereFastOnesDo) {
+    // Round a corner of a wall and down a step, for 12 s, with a stick that turns.
+    const auto end = [](double dt) {
+        Player player(BoxScene().floor().box({-3, 0, -6}, {3, 2, -5}).box({-9, 0, -20}, {9, 0.2f, -2}).scene());
+        run(player, {}, 2);
+        Input input = holding({Key::w, Key::shift});
+        input.gamepad.right = {0.1f, 0};
+        run(player, input, 12, dt);
+        return player.eye();
+    };
+    const glm::vec3 fast = end(1.0 / 60);
+    EXPECT_GT(glm::length(fast - glm::vec3(0, eye_height, 0)), 8.0f);
+    for (const double dt : {1.0 / 10, 0.5, 1.0, 2.0})
+        EXPECT_LT(glm::length(end(dt) - fast), 0.05f) << dt << " s a frame";
+    EXPECT_EQ(end(1), end(1));
+}
+
+TEST(Player, FliesEquallyFarAtEveryFrameRateAndRoundTheSameCurve) {
+    const auto end = [](double dt) {
+        Player player(BoxScene().floor().scene());
+        player.set_flying(true);
+        Input input = holding({Key::w});
+        input.gamepad.right = {0.3f, 0};
+        run(player, input, 4, dt);
+        return player.eye();
+    };
+    EXPECT_LT(glm::length(end(1) - end(1.0 / 60)), 0.05f);
 }
 
 TEST(Player, ShiftRunsAndDiagonalsAreNotFaster) {
