@@ -14,6 +14,9 @@ struct GameOptions {
     double fixed_step = 0;                            ///< s; 0: the wall clock
 };
 
+/// What the key V chooses: the next technique that a game can run, `off` after the last.
+[[nodiscard]] std::string technique_after(const std::string& current);
+
 /// The game's loop, until the window is closed. Keys: README.
 void play(Session& session, const GameOptions& options);
 
