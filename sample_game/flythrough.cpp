@@ -75,14 +75,9 @@ View path_view(Session& session, const Animation& path, double time) {
                        static_cast<float>(session.size.x) / static_cast<float>(session.size.y));
 }
 
-/// Draws a place of the path, from where it was before, and says which file it is in.
-std::string write_still(Session& session, const Animation& path, const Animation::Place& place,
-                        const std::filesystem::path& folder) {
-    animate(session.scene, place.time);
-    session.draw(path_view(session, path, place.time), place.time);
-    const std::filesystem::path file = folder / (place.name + ".png");
-    write_image(file, session.renderer->read_display());
-    return file.string();
+void draw_at(Session& session, const Animation& path, double time) {
+    animate(session.scene, time);
+    session.draw(path_view(session, path, time), time);
 }
 
 std::string frames_csv(const std::vector<FrameTimes>& frames) {
@@ -155,30 +150,39 @@ void fly_through(Session& session, const FlythroughOptions& options) {
         options.duration > 0 ? std::min<double>(options.duration, path.duration) : path.duration;
     const int count = std::max(1, static_cast<int>(std::floor(duration * options.frames_per_second)) + 1);
 
-    // The first frames build shaders and shadow maps: drawn twice before anything is timed.
-    for (int i = 0; i < 2; ++i) session.draw(path_view(session, path, 0), 0);
-
-    session.timer->set_mode(session.timer_mode());
     std::vector<FrameTimes> frames;
     {
         Progress progress("frame", count, options.lines);
         auto place = path.places.begin();
+        const auto next_still = [&] {
+            session.timer->set_mode(gl::TimerMode::off);
+            draw_at(session, path, place->time);
+            const std::filesystem::path file = options.out / (place->name + ".png");
+            write_image(file, session.renderer->read_display());
+            progress.note(file.string());
+            ++place;
+        };
+        // The first frames build shaders and shadow maps: there is something to see before anything is timed.
+        if (place != path.places.end()) next_still();
+        session.renderer->invalidate_history();  // the view jumps
+        for (int i = 0; i < 2; ++i) draw_at(session, path, 0);
+        progress.begin();
         for (int i = 0; i < count; ++i, progress.step()) {
             FrameTimes frame;
             frame.time = i / options.frames_per_second;
-            for (; place != path.places.end() && place->time <= frame.time; ++place)
-                progress.note(write_still(session, path, *place, options.out));
+            while (place != path.places.end() && place->time <= frame.time) next_still();
             frame.place = place_at(path, frame.time);
-            animate(session.scene, frame.time);
-            session.draw(path_view(session, path, frame.time), frame.time);
+            session.timer->set_mode(session.timer_mode());
+            draw_at(session, path, frame.time);
             for (const gl::GpuTimer::Scope& scope : session.timer->wait()) frame.pass_ms[scope.name] = scope.gpu_ms;
             frames.push_back(std::move(frame));
         }
-        for (; place != path.places.end(); ++place) {
-            session.renderer->invalidate_history();  // the view jumps
-            progress.note(write_still(session, path, *place, options.out));
+        while (place != path.places.end()) {
+            session.renderer->invalidate_history();
+            next_still();
         }
     }
+    session.timer->set_mode(session.timer_mode());  // for the summary
     write_text(options.out / "frames.csv", frames_csv(frames));
     write_summary(options.out, session, frames);
 }

@@ -71,6 +71,7 @@ class Game {
         GlContext& context = *session_.context;
         const Input& input = context.input();
         context.poll();
+        context.input().keys_pressed |= std::exchange(early_keys_, {});
         session_.size = glm::max(context.framebuffer_size(), glm::ivec2(1));
         keys(input);
         pointer(input);
@@ -214,6 +215,7 @@ class Game {
     Player player_;
     LevelLogic logic_;
     DebugUi ui_;
+    decltype(Input::keys_pressed) early_keys_ = options_.early_keys;
     bool captured_ = false, screenshot_requested_ = false;
     double time_ = 0, message_seconds_left_ = 0, frame_ms_ = 0;
     Stopwatch stopwatch_;

@@ -11,6 +11,7 @@ struct GameOptions {
     int frames = 0;                                   ///< quit after so many; 0: when the window is closed
     std::optional<std::filesystem::path> screenshot;  ///< taken of the last frame, with what is on screen
     std::optional<std::filesystem::path> stats;       ///< JSON, written at each F2 screenshot and at the end
+    decltype(Input::keys_pressed) early_keys;         ///< pressed while it loaded: they count in the first frame
     double fixed_step = 0;                            ///< s; 0: the wall clock
 };
 

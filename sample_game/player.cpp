@@ -24,10 +24,16 @@ constexpr float stick_gain = 2.6f;       // rad/s
 constexpr float max_pitch = 1.54f;
 constexpr double longest_step = 1.0 / 120;  // s, of what moves
 constexpr float stair_time = 0.08f;         // s in which the eye makes up for all but 1/e of a step
+constexpr float way_step = 2.0f;            // m between the places that a walker goes back to
 constexpr float fall_margin = 30.0f;        // m below the level's lowest point
 
 btVector3 to_bullet(glm::vec3 v) {
     return {v.x, v.y, v.z};
+}
+
+/// Ground round the level, on which nobody who walks is meant to be.
+bool is_surroundings(const Node& node) {
+    return node.name == "terrain";
 }
 
 bool is_solid(const Scene& scene, const Node& node, const Mesh& mesh) {
@@ -44,9 +50,12 @@ struct Player::World {
     btSequentialImpulseConstraintSolver solver;
     btDiscreteDynamicsWorld world{&dispatcher, &broadphase, &solver, &configuration};
     btGhostPairCallback ghost_callback;
-    btTriangleMesh triangles{true, false};
-    std::unique_ptr<btBvhTriangleMeshShape> level_shape;
-    btCollisionObject level;
+    struct Ground {
+        btTriangleMesh triangles{true, false};
+        std::unique_ptr<btBvhTriangleMeshShape> shape;
+        btCollisionObject object;
+    };
+    Ground level, surroundings;
     btCapsuleShape capsule{capsule_radius, capsule_height - 2 * capsule_radius};
     btPairCachingGhostObject ghost;
     std::unique_ptr<btKinematicCharacterController> character;
@@ -54,12 +63,14 @@ struct Player::World {
     explicit World(const Scene& scene) {
         for (const Node& node : scene.nodes)
             for (const int index : node.meshes)
-                if (is_solid(scene, node, scene.meshes[index])) add(scene.meshes[index], node.world);
+                if (is_solid(scene, node, scene.meshes[index]))
+                    add(scene.meshes[index], node.world, is_surroundings(node) ? surroundings : level);
         broadphase.getOverlappingPairCache()->setInternalGhostPairCallback(&ghost_callback);
-        if (triangles.getNumTriangles() > 0) {
-            level_shape = std::make_unique<btBvhTriangleMeshShape>(&triangles, true);
-            level.setCollisionShape(level_shape.get());
-            world.addCollisionObject(&level, btBroadphaseProxy::StaticFilter,
+        for (Ground* ground : {&level, &surroundings}) {
+            if (ground->triangles.getNumTriangles() == 0) continue;
+            ground->shape = std::make_unique<btBvhTriangleMeshShape>(&ground->triangles, true);
+            ground->object.setCollisionShape(ground->shape.get());
+            world.addCollisionObject(&ground->object, btBroadphaseProxy::StaticFilter,
                                      btBroadphaseProxy::AllFilter ^ btBroadphaseProxy::StaticFilter);
         }
         ghost.setCollisionShape(&capsule);
@@ -78,20 +89,34 @@ struct Player::World {
     ~World() {
         world.removeAction(character.get());
         world.removeCollisionObject(&ghost);
-        if (level_shape) world.removeCollisionObject(&level);
+        for (Ground* ground : {&level, &surroundings})
+            if (ground->shape) world.removeCollisionObject(&ground->object);
     }
 
-    void add(const Mesh& mesh, const glm::mat4& transform) {
+    static void add(const Mesh& mesh, const glm::mat4& transform, Ground& ground) {
         const auto corner = [&](std::size_t i) {
             return to_bullet(glm::vec3(transform * glm::vec4(mesh.vertices[mesh.indices[i]].position, 1)));
         };
         for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
-            triangles.addTriangle(corner(i), corner(i + 1), corner(i + 2));
+            ground.triangles.addTriangle(corner(i), corner(i + 1), corner(i + 2));
     }
 
     void warp(glm::vec3 eye) {
         character->reset(&world);
         character->warp(to_bullet(eye + glm::vec3(0, capsule_height / 2 - eye_height, 0)));
+    }
+
+    [[nodiscard]] bool stands_on_surroundings() const {
+        const btVector3 center = ghost.getWorldTransform().getOrigin();
+        const btVector3 below = center - btVector3(0, capsule_height / 2 + step_height, 0);
+        struct Hit : btCollisionWorld::ClosestRayResultCallback {
+            using ClosestRayResultCallback::ClosestRayResultCallback;
+            bool needsCollision(btBroadphaseProxy* proxy) const override {
+                return proxy->m_collisionFilterGroup == btBroadphaseProxy::StaticFilter;
+            }
+        } hit(center, below);
+        world.rayTest(center, below, hit);
+        return hit.m_collisionObject == &surroundings.object;
     }
 
     [[nodiscard]] glm::vec3 eye() const {
@@ -122,6 +147,7 @@ void Player::place(glm::vec3 eye, glm::vec3 direction) {
     pitch_ = std::clamp(std::asin(d.y), -max_pitch, max_pitch);
     eye_ = eye;
     stair_offset_ = last_drop_ = 0;
+    way_.clear();
     world_->warp(eye);
 }
 
@@ -169,8 +195,25 @@ bool Player::update(const Input& input, double dt, bool look_with_pointer) {
     if (flying_) return false;
     stair_offset_ = std::clamp(stair_offset_, -step_height, step_height);
     eye_ = world_->eye() + glm::vec3(0, stair_offset_, 0);
-    if (eye_.y >= lowest_) return false;
-    place(start_, start_direction_);
+    if (eye_.y < lowest_) {
+        place(start_, start_direction_);
+        return true;
+    }
+    return on_ground() && strayed();
+}
+
+/// Keeps the way in mind, and goes back on it from ground that nobody is meant to walk on.
+bool Player::strayed() {
+    if (!world_->stands_on_surroundings()) {
+        const glm::vec3 here = world_->eye();
+        if (way_.empty()) way_ = {here, here};
+        if (glm::distance(here, way_.back()) > way_step) way_ = {way_.back(), here};
+        return false;
+    }
+    if (way_.empty()) return false;  // came flying
+    const glm::vec3 back = way_.front();
+    place(back, direction());
+    way_ = {back, back};
     return true;
 }
 

@@ -14,6 +14,8 @@ class Progress {
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
     void step();
+    /// The steps begin now: what was done before does not count for the time left.
+    void begin() { start_ = Clock::now(); }
     /// A line that stays, where there are lines at all.
     void note(const std::string& text);
 

@@ -53,6 +53,16 @@ void add_play_command(CLI::App& app) {
             if (command->count("--size") == 0) o->draw.size = "640x360";
             const auto say = [](Session&, const std::string& doing) { fmt::print(stderr, "{}\n", doing); };
             Session session(o->draw, false, say);
+            if (session.context->capabilities().software) {
+                if (command->count("--size") == 0) session.size = {384, 216};
+                if (!o->draw.preset) {
+                    o->draw.preset = "fast";
+                    o->draw.apply(session.settings);
+                }
+                o->path.frames_per_second = 1;
+                fmt::print(stderr, "no GPU, so {}x{} pixels, preset {}, {} frame a second of the path\n",
+                           session.size.x, session.size.y, *o->draw.preset, o->path.frames_per_second);
+            }
             o->path.lines = true;
             fly_through(session, o->path);
             fmt::print("{}\n", (o->path.out / "summary.md").string());
@@ -71,6 +81,7 @@ void add_play_command(CLI::App& app) {
             if (!picture) picture.emplace(*opening.context, *opening.shaders);
             picture->show(doing, share += 0.25f);
         });
+        o->game.early_keys = picture->keys_pressed();
         picture.reset();  // what it has shown stays until the first frame
         play(session, o->game);
     });

@@ -36,6 +36,7 @@ LoadingPicture::~LoadingPicture() = default;
 
 void LoadingPicture::show(const std::string& doing, float share) {
     context_.poll();
+    keys_pressed_ |= context_.input().keys_pressed;
     const ImVec2 size(static_cast<float>(picture_.size().x), static_cast<float>(picture_.size().y));
     ImGui::GetIO().DisplaySize = size;
     ImGui::NewFrame();

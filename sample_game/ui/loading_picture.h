@@ -23,6 +23,8 @@ class LoadingPicture {
     /// Takes the window's events, draws and presents. `share` of the work that is done, 0 to 1.
     void show(const std::string& doing, float share);
     [[nodiscard]] const gl::Texture& picture() const { return picture_; }
+    /// All that were pressed meanwhile.
+    [[nodiscard]] decltype(Input::keys_pressed) keys_pressed() const { return keys_pressed_; }
 
   private:
     struct ContextDeleter {
@@ -33,6 +35,7 @@ class LoadingPicture {
     std::unique_ptr<ImguiRenderer> renderer_;
     gl::Texture picture_;
     gl::Framebuffer framebuffer_;
+    decltype(Input::keys_pressed) keys_pressed_;
 };
 
 }  // namespace tyndall

@@ -333,7 +333,7 @@ TEST_F(Commands, FlythroughWritesTablesAndAStillOfEveryPlace) {
 
 TEST_F(Commands, PlayWithoutADisplaySaysSoAndFliesThrough) {
     const CommandResult result = run_tyndall({"play", level(), "--out", path("fly"), "--size", "64x36", "--set",
-                                              "lamp_integration=center", "--duration", "0.5"},
+                                              "lamp_integration=center", "--duration", "2"},
                                              {"DISPLAY", "WAYLAND_DISPLAY"});
     ASSERT_EQ(result.exit_code, 0) << result.err;
     const std::vector<std::string> told = lines(result.err);

@@ -33,6 +33,11 @@ class BoxScene {
         add(std::move(mesh), animated);
         return *this;
     }
+    BoxScene& surroundings(glm::vec3 low, glm::vec3 high) {
+        box(low, high);
+        scene_.nodes.back().name = "terrain";
+        return *this;
+    }
     /// A plane that rises towards -Z from (0, 0, z) by `degrees`, 20 m long.
     BoxScene& slope(float z, float degrees) {
         const float rise = 20 * std::sin(glm::radians(degrees)), run = 20 * std::cos(glm::radians(degrees));
@@ -260,6 +265,29 @@ TEST(Player, WhoLeavesTheWorldStartsAgain) {
     ASSERT_TRUE(again);
     EXPECT_NEAR(glm::length(player.eye() - glm::vec3(0, eye_height, 0)), 0, 0.1);
     EXPECT_NEAR(player.direction().z, -1, 1e-4);
+}
+
+TEST(Player, WhoWalksOutOfTheLevelOntoItsSurroundingsIsBackAtOnce) {
+    BoxScene scene;
+    scene.box({-3, -1, -3}, {3, 0, 3}).surroundings({-50, -3, -50}, {50, -1.7f, 50});
+    Player player(scene.scene());
+    run(player, {}, 0.5);
+    int cuts = 0;
+    for (int i = 0; i < 300; ++i) {
+        cuts += player.update(holding({Key::w}), 1.0 / 30, false) ? 1 : 0;
+        EXPECT_TRUE(!player.on_ground() || player.eye().y > 1.5f) << "never stands on the surroundings";
+    }
+    EXPECT_GE(cuts, 1);
+    EXPECT_LT(std::abs(player.eye().z), 4);
+    EXPECT_NEAR(player.direction().z, -1, 1e-4);
+
+    player.set_flying(true);  // who comes flying may walk there
+    player.place({0, 3, -20}, {0, 0, -1});
+    player.set_flying(false);
+    run(player, {}, 3);
+    run(player, holding({Key::w}), 1);
+    EXPECT_NEAR(player.eye().y, eye_height - 1.7f, 0.08);
+    EXPECT_LT(player.eye().z, -22);
 }
 
 TEST(Player, FliesAlongItsViewThroughWalls) {
