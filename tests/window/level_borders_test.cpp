@@ -18,7 +18,7 @@ constexpr float towards_the_wall = glm::radians(20.0f);  // turned each tick
 constexpr float away_from_it = glm::radians(25.0f);      // turned until there is a way
 constexpr float cell = 0.5f;                             // m
 constexpr int ticks_of_known_ground = 40;                // after which the border is known
-constexpr float stature = 1.65f;                      // m
+constexpr float stature = 1.65f;                         // m
 
 /// The ground round the level, near it.
 class Surroundings {
@@ -36,7 +36,8 @@ class Surroundings {
             const glm::vec2 u(b.x - a.x, b.z - a.z), v(c.x - a.x, c.z - a.z), w(p.x - a.x, p.y - a.z);
             const float area = u.x * v.y - u.y * v.x;
             const float s = (w.x * v.y - w.y * v.x) / area, t = (u.x * w.y - u.y * w.x) / area;
-            if (s >= 0 && t >= 0 && s + t <= 1) highest = std::max(highest, a.y + s * (b.y - a.y) + t * (c.y - a.y));
+            if (s >= 0 && t >= 0 && s + t <= 1)
+                highest = std::max(highest, a.y + s * (b.y - a.y) + t * (c.y - a.y));
         }
         return highest;
     }
