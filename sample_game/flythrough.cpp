@@ -16,23 +16,48 @@
 namespace tyndall {
 namespace {
 
-/// The rows of the paper's frame breakdown and the passes they sum (by prefix).
-const std::vector<std::pair<std::string, std::vector<std::string>>> breakdown{
-    {"Volumetrics, total", {"volumetrics/"}}, {"Media injection", {"volumetrics/inject_media"}},
-    {"Ray march", {"volumetrics/march"}},     {"Filter", {"volumetrics/filter"}},
-    {"Composite", {"volumetrics/composite"}}, {"Whole frame", {""}}};
+const std::string volumetrics = "volumetrics/";
+
+/// A row of the frame breakdown, and the prefixes of the passes that it sums.
+struct Part {
+    std::string name;
+    std::vector<std::string> passes;
+    [[nodiscard]] bool has(const std::string& pass) const {
+        return std::ranges::any_of(passes, [&](const std::string& prefix) { return pass.starts_with(prefix); });
+    }
+};
+/// A pass belongs to the first that has it.
+const std::vector<Part> volumetric_parts{{"Media injection", {"volumetrics/inject_media"}},
+                                         {"Ray march", {"volumetrics/march"}},
+                                         {"Filter", {"volumetrics/filter"}},
+                                         {"Composite", {"volumetrics/composite"}},
+                                         {"Other volumetrics", {volumetrics}}};
+const std::vector<Part> frame_parts{{"Volumetrics", {volumetrics}},
+                                    {"Shadows", {"shadow_"}},
+                                    {"Surfaces", {"gbuffer", "lighting", "transparent"}},
+                                    {"Everything else", {""}}};
 
 struct FrameTimes {
     double time = 0;
     std::string place;
     std::map<std::string, double> pass_ms;
 
-    [[nodiscard]] double sum(const std::vector<std::string>& prefixes) const {
+    /// Of the passes for which `wanted` holds.
+    template <class Wanted>
+    [[nodiscard]] double sum(Wanted wanted) const {
         double ms = 0;
         for (const auto& [pass, value] : pass_ms)
-            for (const std::string& prefix : prefixes)
-                if (pass.starts_with(prefix)) ms += value;
+            if (wanted(pass)) ms += value;
         return ms;
+    }
+    [[nodiscard]] double of(const std::vector<Part>& parts, const Part& part) const {
+        return sum([&](const std::string& pass) {
+            const auto first = std::ranges::find_if(parts, [&](const Part& p) { return p.has(pass); });
+            return first != parts.end() && first->name == part.name;
+        });
+    }
+    [[nodiscard]] double total() const {
+        return sum([](const std::string&) { return true; });
     }
 };
 
@@ -48,6 +73,11 @@ View path_view(Session& session, const Animation& path, double time) {
     animate_one(session.scene, path, time);
     return camera_view(session.scene, "flythrough",
                        static_cast<float>(session.size.x) / static_cast<float>(session.size.y));
+}
+
+void draw_at(Session& session, const Animation& path, double time) {
+    animate(session.scene, time);
+    session.draw(path_view(session, path, time), time);
 }
 
 std::string frames_csv(const std::vector<FrameTimes>& frames) {
@@ -79,18 +109,24 @@ void write_summary(const std::filesystem::path& out, const Session& session,
         session.context->capabilities().version,
         session.timer->mode() == gl::TimerMode::query ? "GPU timer queries"
                                                       : "wall clock from finish to finish (software driver)");
-    for (const auto& [part, prefixes] : breakdown) {
+    const auto row = [&](const std::string& name, const std::string& title, auto value) {
         std::vector<double> values;
-        for (const FrameTimes& f : frames) values.push_back(f.sum(prefixes));
+        for (const FrameTimes& f : frames) values.push_back(value(f));
         const Statistics s = statistics(values);
-        csv += fmt::format("{},{},{:.4f},{:.4f},{:.4f}\n", part == "Volumetrics, total" ? "Volumetrics" : part,
-                           s.count, s.mean, s.deviation, s.variance);
-        md +=
-            fmt::format("| {} | {} | {:.2f} | {:.2f} | {:.2f} |\n", part, s.count, s.mean, s.deviation, s.variance);
+        csv += fmt::format("{},{},{:.4f},{:.4f},{:.4f}\n", name, s.count, s.mean, s.deviation, s.variance);
+        md += fmt::format("| {} | {} | {:.2f} | {:.2f} | {:.2f} |\n", title, s.count, s.mean, s.deviation,
+                          s.variance);
+    };
+    for (const Part& part : frame_parts) {
+        row(part.name, part.name, [&](const FrameTimes& f) { return f.of(frame_parts, part); });
+        if (part.passes.front() != volumetrics) continue;
+        for (const Part& p : volumetric_parts)
+            row(p.name, "– " + p.name, [&](const FrameTimes& f) { return f.of(volumetric_parts, p); });
     }
+    row("Whole frame", "Whole frame: all passes", [](const FrameTimes& f) { return f.total(); });
     md += "\n| place | volumetrics, mean (ms) |\n|---|---|\n";
     std::map<std::string, std::vector<double>> by_place;
-    for (const FrameTimes& f : frames) by_place[f.place].push_back(f.sum({"volumetrics/"}));
+    for (const FrameTimes& f : frames) by_place[f.place].push_back(f.of(frame_parts, frame_parts.front()));
     for (const auto& [place, values] : by_place)
         md += fmt::format("| {} | {:.2f} |\n", place, statistics(values).mean);
     write_text(out / "summary.csv", csv);
@@ -114,31 +150,39 @@ void fly_through(Session& session, const FlythroughOptions& options) {
         options.duration > 0 ? std::min<double>(options.duration, path.duration) : path.duration;
     const int count = std::max(1, static_cast<int>(std::floor(duration * options.frames_per_second)) + 1);
 
-    // The first frames build shaders and shadow maps: drawn twice before anything is timed.
-    for (int i = 0; i < 2; ++i) session.draw(path_view(session, path, 0), 0);
-
-    session.timer->set_mode(session.timer_mode());
     std::vector<FrameTimes> frames;
     {
-        Progress progress("frame", count);
+        Progress progress("frame", count, options.lines);
+        auto place = path.places.begin();
+        const auto next_still = [&] {
+            session.timer->set_mode(gl::TimerMode::off);
+            draw_at(session, path, place->time);
+            const std::filesystem::path file = options.out / (place->name + ".png");
+            write_image(file, session.renderer->read_display());
+            progress.note(file.string());
+            ++place;
+        };
+        // The first frames build shaders and shadow maps: there is something to see before anything is timed.
+        if (place != path.places.end()) next_still();
+        session.renderer->invalidate_history();  // the view jumps
+        for (int i = 0; i < 2; ++i) draw_at(session, path, 0);
+        progress.begin();
         for (int i = 0; i < count; ++i, progress.step()) {
             FrameTimes frame;
             frame.time = i / options.frames_per_second;
+            while (place != path.places.end() && place->time <= frame.time) next_still();
             frame.place = place_at(path, frame.time);
-            animate(session.scene, frame.time);
-            session.draw(path_view(session, path, frame.time), frame.time);
+            session.timer->set_mode(session.timer_mode());
+            draw_at(session, path, frame.time);
             for (const gl::GpuTimer::Scope& scope : session.timer->wait()) frame.pass_ms[scope.name] = scope.gpu_ms;
             frames.push_back(std::move(frame));
         }
+        while (place != path.places.end()) {
+            session.renderer->invalidate_history();
+            next_still();
+        }
     }
-    session.timer->set_mode(gl::TimerMode::off);
-    for (const Animation::Place& place : path.places) {
-        animate(session.scene, place.time);
-        session.renderer->invalidate_history();  // the view jumps
-        session.draw(path_view(session, path, place.time), place.time);
-        write_image(options.out / (place.name + ".png"), session.renderer->read_display());
-    }
-    session.timer->set_mode(session.timer_mode());
+    session.timer->set_mode(session.timer_mode());  // for the summary
     write_text(options.out / "frames.csv", frames_csv(frames));
     write_summary(options.out, session, frames);
 }

@@ -7,13 +7,16 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <utility>
 
 #include "engine/core/error.h"
 #include "engine/core/files.h"
 #include "engine/core/image.h"
+#include "engine/core/image_encode.h"
 #include "engine/core/log.h"
+#include "engine/core/output_files.h"
 #include "engine/platform/frame_clock.h"
 #include "sample_game/level_logic.h"
 #include "sample_game/player.h"
@@ -68,6 +71,7 @@ class Game {
         GlContext& context = *session_.context;
         const Input& input = context.input();
         context.poll();
+        context.input().keys_pressed |= std::exchange(early_keys_, {});
         session_.size = glm::max(context.framebuffer_size(), glm::ivec2(1));
         keys(input);
         pointer(input);
@@ -90,8 +94,7 @@ class Game {
         context.present(session_.renderer->display_framebuffer(), session_.renderer->size());
     }
 
-    void write_stats() const {
-        if (!options_.stats) return;
+    [[nodiscard]] std::string stats() const {
         const glm::vec3 eye = player_.eye(), direction = player_.direction();
         nlohmann::json stats = stats_json(session_);
         stats["player"] = {{"eye", {eye.x, eye.y, eye.z}},
@@ -99,7 +102,7 @@ class Game {
                            {"flying", player_.flying()},
                            {"on_ground", player_.on_ground()}};
         stats["gl_messages"] = debug_messages().count;
-        write_text(*options_.stats, stats.dump(2) + "\n");
+        return stats.dump(2) + "\n";
     }
 
   private:
@@ -162,9 +165,7 @@ class Game {
     }
 
     void next_technique() {
-        const std::vector<std::string>& names = volumetrics::technique_names();
-        const auto current = std::ranges::find(names, session_.volumetrics.settings.technique);
-        const std::string& next = names[static_cast<std::size_t>(current + 1 - names.begin()) % names.size()];
+        const std::string next = technique_after(session_.volumetrics.settings.technique);
         session_.settings.set("technique", next);
         say("technique: " + next);
     }
@@ -172,13 +173,19 @@ class Game {
     void screenshot() {
         screenshot_requested_ = false;
         const std::string name = unused_screenshot_name();
-        try {
-            write_stats();
-            write_image(name, session_.renderer->read_display());
-            say("saved " + name);
-        } catch (const Error& e) {
-            say(e.what());
-        }
+        std::string problems;
+        const auto attempt = [&](const std::function<void()>& write) {
+            try {
+                write();
+                return true;
+            } catch (const Error& e) {
+                problems += std::string("\n") + e.what();
+                return false;
+            }
+        };
+        if (options_.stats) attempt([&] { write_text(*options_.stats, stats()); });
+        const bool saved = attempt([&] { write_image(name, session_.renderer->read_display()); });
+        say((saved ? "saved " + name : "not saved") + problems);
     }
 
     /// The nearest of the level's places, or coordinates.
@@ -208,6 +215,7 @@ class Game {
     Player player_;
     LevelLogic logic_;
     DebugUi ui_;
+    decltype(Input::keys_pressed) early_keys_ = options_.early_keys;
     bool captured_ = false, screenshot_requested_ = false;
     double time_ = 0, message_seconds_left_ = 0, frame_ms_ = 0;
     Stopwatch stopwatch_;
@@ -216,13 +224,25 @@ class Game {
 
 }  // namespace
 
+std::string technique_after(const std::string& current) {
+    const std::vector<std::string>& names = volumetrics::technique_names();
+    auto next = std::ranges::find(names, current);
+    do {
+        next = next == names.end() || next + 1 == names.end() ? names.begin() : next + 1;
+    } while (*next == "reference");
+    return *next;
+}
+
 void play(Session& session, const GameOptions& options) {
     Game game(session, options);
     FrameClock clock = options.fixed_step > 0 ? FrameClock::fixed(options.fixed_step) : FrameClock::wall();
     for (int i = 0; !session.context->should_close() && (options.frames == 0 || i < options.frames); ++i)
         game.frame(clock.tick());
-    game.write_stats();
-    if (options.screenshot) write_image(*options.screenshot, session.renderer->read_display());
+    OutputFiles files;
+    if (options.stats) files.add(*options.stats, game.stats());
+    if (options.screenshot)
+        files.add(*options.screenshot, encode_image(*options.screenshot, session.renderer->read_display()));
+    files.commit();
 }
 
 }  // namespace tyndall

@@ -11,8 +11,12 @@ struct GameOptions {
     int frames = 0;                                   ///< quit after so many; 0: when the window is closed
     std::optional<std::filesystem::path> screenshot;  ///< taken of the last frame, with what is on screen
     std::optional<std::filesystem::path> stats;       ///< JSON, written at each F2 screenshot and at the end
+    decltype(Input::keys_pressed) early_keys;         ///< pressed while it loaded: they count in the first frame
     double fixed_step = 0;                            ///< s; 0: the wall clock
 };
+
+/// What the key V chooses: the next technique that a game can run, `off` after the last.
+[[nodiscard]] std::string technique_after(const std::string& current);
 
 /// The game's loop, until the window is closed. Keys: README.
 void play(Session& session, const GameOptions& options);

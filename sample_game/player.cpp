@@ -22,12 +22,18 @@ constexpr float gravity = 9.81f;
 constexpr float pointer_gain = 0.0022f;  // rad per pixel
 constexpr float stick_gain = 2.6f;       // rad/s
 constexpr float max_pitch = 1.54f;
-constexpr float longest_physics_step = 1.0f / 120.0f;  // s
-constexpr float stair_time = 0.08f;                    // s in which the eye makes up for all but 1/e of a step
-constexpr float fall_margin = 30.0f;                   // m below the level's lowest point
+constexpr double longest_step = 1.0 / 120;  // s, of what moves
+constexpr float stair_time = 0.08f;         // s in which the eye makes up for all but 1/e of a step
+constexpr float way_step = 2.0f;            // m between the places that a walker goes back to
+constexpr float fall_margin = 30.0f;        // m below the level's lowest point
 
 btVector3 to_bullet(glm::vec3 v) {
     return {v.x, v.y, v.z};
+}
+
+/// Ground round the level, on which nobody who walks is meant to be.
+bool is_surroundings(const Node& node) {
+    return node.name == "terrain";
 }
 
 bool is_solid(const Scene& scene, const Node& node, const Mesh& mesh) {
@@ -44,9 +50,12 @@ struct Player::World {
     btSequentialImpulseConstraintSolver solver;
     btDiscreteDynamicsWorld world{&dispatcher, &broadphase, &solver, &configuration};
     btGhostPairCallback ghost_callback;
-    btTriangleMesh triangles{true, false};
-    std::unique_ptr<btBvhTriangleMeshShape> level_shape;
-    btCollisionObject level;
+    struct Ground {
+        btTriangleMesh triangles{true, false};
+        std::unique_ptr<btBvhTriangleMeshShape> shape;
+        btCollisionObject object;
+    };
+    Ground level, surroundings;
     btCapsuleShape capsule{capsule_radius, capsule_height - 2 * capsule_radius};
     btPairCachingGhostObject ghost;
     std::unique_ptr<btKinematicCharacterController> character;
@@ -54,12 +63,14 @@ struct Player::World {
     explicit World(const Scene& scene) {
         for (const Node& node : scene.nodes)
             for (const int index : node.meshes)
-                if (is_solid(scene, node, scene.meshes[index])) add(scene.meshes[index], node.world);
+                if (is_solid(scene, node, scene.meshes[index]))
+                    add(scene.meshes[index], node.world, is_surroundings(node) ? surroundings : level);
         broadphase.getOverlappingPairCache()->setInternalGhostPairCallback(&ghost_callback);
-        if (triangles.getNumTriangles() > 0) {
-            level_shape = std::make_unique<btBvhTriangleMeshShape>(&triangles, true);
-            level.setCollisionShape(level_shape.get());
-            world.addCollisionObject(&level, btBroadphaseProxy::StaticFilter,
+        for (Ground* ground : {&level, &surroundings}) {
+            if (ground->triangles.getNumTriangles() == 0) continue;
+            ground->shape = std::make_unique<btBvhTriangleMeshShape>(&ground->triangles, true);
+            ground->object.setCollisionShape(ground->shape.get());
+            world.addCollisionObject(&ground->object, btBroadphaseProxy::StaticFilter,
                                      btBroadphaseProxy::AllFilter ^ btBroadphaseProxy::StaticFilter);
         }
         ghost.setCollisionShape(&capsule);
@@ -78,20 +89,34 @@ struct Player::World {
     ~World() {
         world.removeAction(character.get());
         world.removeCollisionObject(&ghost);
-        if (level_shape) world.removeCollisionObject(&level);
+        for (Ground* ground : {&level, &surroundings})
+            if (ground->shape) world.removeCollisionObject(&ground->object);
     }
 
-    void add(const Mesh& mesh, const glm::mat4& transform) {
+    static void add(const Mesh& mesh, const glm::mat4& transform, Ground& ground) {
         const auto corner = [&](std::size_t i) {
             return to_bullet(glm::vec3(transform * glm::vec4(mesh.vertices[mesh.indices[i]].position, 1)));
         };
         for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
-            triangles.addTriangle(corner(i), corner(i + 1), corner(i + 2));
+            ground.triangles.addTriangle(corner(i), corner(i + 1), corner(i + 2));
     }
 
     void warp(glm::vec3 eye) {
         character->reset(&world);
         character->warp(to_bullet(eye + glm::vec3(0, capsule_height / 2 - eye_height, 0)));
+    }
+
+    [[nodiscard]] bool stands_on_surroundings() const {
+        const btVector3 center = ghost.getWorldTransform().getOrigin();
+        const btVector3 below = center - btVector3(0, capsule_height / 2 + step_height, 0);
+        struct Hit : btCollisionWorld::ClosestRayResultCallback {
+            using ClosestRayResultCallback::ClosestRayResultCallback;
+            bool needsCollision(btBroadphaseProxy* proxy) const override {
+                return proxy->m_collisionFilterGroup == btBroadphaseProxy::StaticFilter;
+            }
+        } hit(center, below);
+        world.rayTest(center, below, hit);
+        return hit.m_collisionObject == &surroundings.object;
     }
 
     [[nodiscard]] glm::vec3 eye() const {
@@ -123,6 +148,7 @@ void Player::place(glm::vec3 eye, glm::vec3 direction) {
     pitch_ = std::clamp(std::asin(d.y), -max_pitch, max_pitch);
     eye_ = eye;
     stair_offset_ = last_drop_ = 0;
+    way_.clear();
     world_->warp(eye);
 }
 
@@ -146,31 +172,58 @@ bool Player::on_ground() const {
 }
 
 bool Player::update(const Input& input, double dt, bool look_with_pointer) {
-    const float step = static_cast<float>(dt);
-    look(input, look_with_pointer, step);
+    if (look_with_pointer) turn(glm::vec2(input.pointer_delta) * pointer_gain);
+    if (dt <= 0) return false;
     const auto axis = [&](Key positive, Key negative) {
         return static_cast<float>(input.down(positive)) - static_cast<float>(input.down(negative));
     };
     const glm::vec2 stick = input.gamepad.left;  // +y is down
     glm::vec2 move(axis(Key::d, Key::a) + stick.x, axis(Key::w, Key::s) - stick.y);
     if (glm::length(move) > 1) move = glm::normalize(move);
-    if (flying_)
-        fly(input, move, step);
-    else
-        walk(input, move, step);
-    if (flying_ || eye_.y >= lowest_) return false;
-    place(start_, start_direction_);
+    btKinematicCharacterController& character = *world_->character;
+    if (!flying_ && (input.pressed(Key::space) || input.gamepad.jump) && character.onGround()) character.jump();
+
+    // Equal steps that end with the frame: with a fixed step, frames would hold two or three of them in turn.
+    const int steps = std::max(1, static_cast<int>(std::ceil(dt / longest_step - 1e-6)));
+    const float step = static_cast<float>(dt / steps);
+    for (int i = 0; i < steps; ++i) {
+        turn(input.gamepad.right * stick_gain * step);
+        if (flying_)
+            fly_step(input, move, step);
+        else
+            walk_step(input, move, step);
+    }
+    if (flying_) return false;
+    stair_offset_ = std::clamp(stair_offset_, -step_height, step_height);
+    eye_ = world_->eye() + glm::vec3(0, stair_offset_, 0);
+    if (eye_.y < lowest_) {
+        place(start_, start_direction_);
+        return true;
+    }
+    return on_ground() && strayed();
+}
+
+/// Keeps the way in mind, and goes back on it from ground that nobody is meant to walk on.
+bool Player::strayed() {
+    if (!world_->stands_on_surroundings()) {
+        const glm::vec3 here = world_->eye();
+        if (way_.empty()) way_ = {here, here};
+        if (glm::distance(here, way_.back()) > way_step) way_ = {way_.back(), here};
+        return false;
+    }
+    if (way_.empty()) return false;  // came flying
+    const glm::vec3 back = way_.front();
+    place(back, direction());
+    way_ = {back, back};
     return true;
 }
 
-void Player::look(const Input& input, bool pointer, float dt) {
-    const glm::vec2 stick = input.gamepad.right * stick_gain * dt;
-    const glm::vec2 turn = pointer ? glm::vec2(input.pointer_delta) * pointer_gain : glm::vec2(0);
-    yaw_ = std::remainder(yaw_ - turn.x - stick.x, glm::two_pi<float>());
-    pitch_ = std::clamp(pitch_ - turn.y - stick.y, -max_pitch, max_pitch);
+void Player::turn(glm::vec2 angles) {
+    yaw_ = std::remainder(yaw_ - angles.x, glm::two_pi<float>());
+    pitch_ = std::clamp(pitch_ - angles.y, -max_pitch, max_pitch);
 }
 
-void Player::fly(const Input& input, glm::vec2 move, float dt) {
+void Player::fly_step(const Input& input, glm::vec2 move, float dt) {
     const float up = static_cast<float>(input.down(Key::space)) - static_cast<float>(input.down(Key::control)) +
                      input.gamepad.up - input.gamepad.down;
     const glm::vec3 right(std::cos(yaw_), 0, -std::sin(yaw_));
@@ -178,29 +231,19 @@ void Player::fly(const Input& input, glm::vec2 move, float dt) {
     eye_ += (direction() * move.y + right * move.x + glm::vec3(0, up, 0)) * speed * dt;
 }
 
-void Player::walk(const Input& input, glm::vec2 move, float dt) {
-    if (dt <= 0) return;
+void Player::walk_step(const Input& input, glm::vec2 move, float dt) {
     const glm::vec3 forward(-std::sin(yaw_), 0, -std::cos(yaw_)), right(std::cos(yaw_), 0, -std::sin(yaw_));
     const glm::vec3 velocity =
         (forward * move.y + right * move.x) * (input.down(Key::shift) ? run_speed : walk_speed);
     btKinematicCharacterController& character = *world_->character;
-    if ((input.pressed(Key::space) || input.gamepad.jump) && character.onGround()) character.jump();
-
-    // Equal steps that end with the frame: with a fixed step, frames would hold two or three of them in turn.
-    const int steps = std::max(1, static_cast<int>(std::ceil(dt / longest_physics_step)));
-    const float h = dt / static_cast<float>(steps);
-    for (int i = 0; i < steps; ++i) {
-        const bool stood = character.onGround();
-        const float before = world_->eye().y;
-        character.setWalkDirection(to_bullet(velocity * h));
-        world_->world.stepSimulation(h, 0);
-        const float drop = before - world_->eye().y;
-        if (character.onGround()) stair_offset_ += stood ? drop : std::max(drop - last_drop_, 0.0f);
-        last_drop_ = character.onGround() ? 0 : drop;
-        stair_offset_ *= std::exp(-h / stair_time);
-    }
-    stair_offset_ = std::clamp(stair_offset_, -step_height, step_height);
-    eye_ = world_->eye() + glm::vec3(0, stair_offset_, 0);
+    const bool stood = character.onGround();
+    const float before = world_->eye().y;
+    character.setWalkDirection(to_bullet(velocity * dt));
+    world_->world.stepSimulation(dt, 0);
+    const float drop = before - world_->eye().y;
+    if (character.onGround()) stair_offset_ += stood ? drop : std::max(drop - last_drop_, 0.0f);
+    last_drop_ = character.onGround() ? 0 : drop;
+    stair_offset_ *= std::exp(-dt / stair_time);
 }
 
 }  // namespace tyndall

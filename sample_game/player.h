@@ -2,6 +2,7 @@
 
 #include <glm/glm.hpp>
 #include <memory>
+#include <vector>
 
 #include "engine/platform/input.h"
 #include "engine/scene/scene.h"
@@ -18,8 +19,10 @@ class Player {
 
     /// Puts the eye at `eye`, looking along `direction`, at rest.
     void place(glm::vec3 eye, glm::vec3 direction);
-    /// Walks or flies for `dt` seconds. `look` says whether the pointer turns the view. True: the player fell out
-    /// of the level and stands at the start again (a camera cut).
+    /// Turns, walks or flies for `dt` seconds in equal steps of at most 1/120 s, so that slow frames lead where
+    /// fast ones do. `look` says whether the pointer turns the view. True (a camera cut): the player fell out of
+    /// the level and stands at the start again, or walked out of it, onto the node `terrain`, and stands a few
+    /// metres back.
     bool update(const Input& input, double dt, bool look);
 
     [[nodiscard]] glm::vec3 eye() const { return eye_; }
@@ -30,9 +33,10 @@ class Player {
     [[nodiscard]] bool on_ground() const;
 
   private:
-    void look(const Input& input, bool pointer, float dt);
-    void fly(const Input& input, glm::vec2 move, float dt);
-    void walk(const Input& input, glm::vec2 move, float dt);
+    void turn(glm::vec2 angles);
+    bool strayed();
+    void fly_step(const Input& input, glm::vec2 move, float dt);
+    void walk_step(const Input& input, glm::vec2 move, float dt);
 
     struct World;
     std::unique_ptr<World> world_;
@@ -44,6 +48,7 @@ class Player {
     float last_drop_ = 0;  ///< m fallen in the last physics step; the controller drops more than that as it lands
     float lowest_ = 0;     ///< below this the player has fallen out of the level
     bool flying_ = false;
+    std::vector<glm::vec3> way_;  ///< where he lately walked in the level, the older one first; or nothing
 };
 
 }  // namespace tyndall

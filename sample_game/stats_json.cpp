@@ -25,11 +25,15 @@ json stats_json(Session& session) {
         for (const auto& [pass, counts] : renderer.work())
             for (int i = 0; i < static_cast<int>(gl::Work::count); ++i)
                 work[pass][gl::to_string(static_cast<gl::Work>(i))] = counts[i];
+    json stages = json::array();
+    for (const StartupStage& stage : session.startup.stages())
+        stages.push_back({{"stage", stage.name}, {"ms", stage.ms}});
     const FrameFacts& facts = renderer.facts();
     const Renderer::DrawCounts draws = renderer.draw_counts();
     return {{"driver", {{"vendor", driver.vendor}, {"renderer", driver.renderer}, {"version", driver.version}}},
             {"context", to_string(session.context->kind())},
             {"size", {session.size.x, session.size.y}},
+            {"startup", {{"total_ms", session.startup.total_ms()}, {"stages", stages}}},
             {"timer", session.timer->mode() == gl::TimerMode::query ? "query" : "finish"},
             {"facts",
              {{"has_sun", facts.has_sun},

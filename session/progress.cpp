@@ -6,12 +6,19 @@
 #include <cstdio>
 
 namespace tyndall {
+namespace {
 
-Progress::Progress(std::string what, int total)
+constexpr std::chrono::seconds between_lines{10};
+
+}  // namespace
+
+Progress::Progress(std::string what, int total, bool lines)
     : what_(std::move(what)),
       total_(total),
       terminal_(isatty(STDERR_FILENO) != 0),
-      start_(std::chrono::steady_clock::now()) {}
+      lines_(lines),
+      start_(Clock::now()),
+      last_line_(start_) {}
 
 Progress::~Progress() {
     if (terminal_ && done_ > 0) fmt::print(stderr, "\n");
@@ -19,11 +26,20 @@ Progress::~Progress() {
 
 void Progress::step() {
     ++done_;
-    if (!terminal_) return;
-    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
+    const Clock::time_point now = Clock::now();
+    if (!terminal_ && (!lines_ || now - last_line_ < between_lines)) return;
+    last_line_ = now;
+    const std::chrono::duration<double> elapsed = now - start_;
     const double left = elapsed.count() / done_ * (total_ - done_);
-    fmt::print(stderr, "\r{} {}/{}, {:.0f} s left   ", what_, done_, total_, left);
+    const std::string text = fmt::format("{} {}/{}, {:.0f} s left", what_, done_, total_, left);
+    fmt::print(stderr, "{}{}{}", terminal_ ? "\r" : "", text, terminal_ ? "   " : "\n");
     std::fflush(stderr);
+}
+
+void Progress::note(const std::string& text) {
+    if (!terminal_ && !lines_) return;
+    last_line_ = Clock::now();
+    fmt::print(stderr, "{}{}{}\n", terminal_ ? "\r" : "", text, terminal_ ? "   " : "");
 }
 
 }  // namespace tyndall

@@ -5,17 +5,33 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "engine/core/error.h"
 #include "engine/core/files.h"
+#include "session/number_option.h"
 
 namespace tyndall {
 namespace {
 
 constexpr int max_side = 16384;
 constexpr float default_znear = 0.1f;
+constexpr double default_fov = 60;     // degrees
+constexpr double far_out = 1e6;        // m: as far from the origin as pictures are right
+constexpr float nearest_look = 1e-6f;  // m
+
+glm::vec3 point(const std::vector<double>& xyz) {
+    return glm::vec3(glm::dvec3(xyz[0], xyz[1], xyz[2]));
+}
+
+bool is_finite(const glm::mat4& m) {
+    for (int column = 0; column < 4; ++column)
+        for (int row = 0; row < 4; ++row)
+            if (!std::isfinite(m[column][row])) return false;
+    return true;
+}
 
 }  // namespace
 
@@ -54,6 +70,13 @@ void SceneOptions::apply(SettingsSet& settings) const {
     for (const std::string& assignment : set) settings.set(assignment);
 }
 
+std::vector<NamedFile> SceneOptions::inputs() const {
+    std::vector<NamedFile> files{{"SCENE", scene}};
+    if (media) files.push_back({"--media", *media});
+    if (preset) files.push_back({"--preset", *preset});
+    return files;
+}
+
 Scene SceneOptions::load() const {
     Scene loaded = load_gltf(scene);
     if (media) loaded.media = load_media(*media);
@@ -64,24 +87,30 @@ Scene SceneOptions::load() const {
 
 void ViewOptions::add_to(CLI::App& command) {
     command.add_option("--camera", camera, "a camera of the scene (default: its first)");
-    command.add_option("--eye", eye, "x,y,z in metres")->delimiter(',')->expected(3);
-    command.add_option("--look", look, "x,y,z looked at")->delimiter(',')->expected(3);
-    command.add_option("--fov", fov, "vertical field of view in degrees, with --eye")
-        ->check(CLI::Range(1.0, 170.0))
-        ->capture_default_str();
-    command.add_option("--time", time, "seconds")->check(CLI::Range(-1e6, 1e6))->capture_default_str();
+    const auto add_point = [&](const char* name, std::vector<double>& value, const char* help) {
+        command.add_option(name, value, help)->delimiter(',')->expected(3)->check(number_in(-far_out, far_out));
+    };
+    add_point("--eye", eye, "x,y,z in metres");
+    add_point("--look", look, "x,y,z looked at");
+    command
+        .add_option("--fov", fov, fmt::format("vertical field of view in degrees, with --eye ({})", default_fov))
+        ->check(number_in(1, 170));
+    command.add_option("--time", time, "seconds")->check(number_in(-1e6, 1e6))->capture_default_str();
 }
 
 void ViewOptions::check() const {
     if (eye.empty() != look.empty()) throw UsageError("--eye and --look go together");
     if (!eye.empty() && camera) throw UsageError("--camera and --eye exclude each other");
+    if (fov && eye.empty()) throw UsageError("--fov needs --eye: a camera of the scene has its own field of view");
+    if (!eye.empty() && glm::distance(point(eye), point(look)) < nearest_look)
+        throw UsageError("--look: a point apart from --eye expected, which gives a direction");
 }
 
 View ViewOptions::view(const Scene& scene, glm::ivec2 size) const {
     const float aspect = static_cast<float>(size.x) / static_cast<float>(size.y);
     if (!eye.empty())
-        return look_at({eye[0], eye[1], eye[2]}, {look[0], look[1], look[2]}, glm::radians(fov), default_znear,
-                       aspect);
+        return look_at(point(eye), point(look), static_cast<float>(glm::radians(fov.value_or(default_fov))),
+                       default_znear, aspect);
     return camera_view(scene, camera.value_or(scene.cameras.front().name), aspect);
 }
 
@@ -96,10 +125,10 @@ View camera_view(const Scene& scene, const std::string& name, float aspect) {
     return make_view(node_pose(scene, camera->node), camera->yfov, camera->znear, aspect);
 }
 
-void check_picture_name(const std::string& path) {
-    const std::string extension = std::filesystem::path(path).extension().string();
+void check_picture_name(const std::string& option, const std::filesystem::path& path) {
+    const std::string extension = path.extension().string();
     if (extension != ".png" && extension != ".exr")
-        throw UsageError(fmt::format("--output {}: expected a name ending in .png or .exr", path));
+        throw UsageError(fmt::format("{} {}: expected a name ending in .png or .exr", option, path.string()));
 }
 
 void apply_preset(SettingsSet& settings, const std::string& name_or_path) {

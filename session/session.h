@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <glm/glm.hpp>
 #include <memory>
 #include <string>
@@ -11,6 +12,7 @@
 #include "engine/render/renderer.h"
 #include "engine/scene/scene.h"
 #include "session/scene_options.h"
+#include "session/startup.h"
 
 namespace tyndall {
 
@@ -21,11 +23,13 @@ struct DrawOptions : SceneOptions {
 };
 
 /// A scene with its settings, ready to be drawn: what `play`, `render` and `flythrough` have in common.
-/// Construction order: settings (usage errors first), scene, context, renderer.
+/// Construction order: settings (usage errors first), context, scene, renderer.
 class Session {
   public:
+    /// What is about to be done, while context and shaders are there already.
+    using Announce = std::function<void(Session&, const std::string& doing)>;
     /// `window` asks for a visible one. Throws UsageError or Error.
-    Session(const DrawOptions& options, bool window);
+    Session(const DrawOptions& options, bool window, const Announce& announce = {});
 
     SettingsSet settings;  ///< those of `options` and of `volumetrics`, by key
     FrameOptions options;
@@ -36,13 +40,17 @@ class Session {
     std::unique_ptr<gl::GpuTimer> timer;
     VolumetricsAdapter volumetrics;
     std::unique_ptr<Renderer> renderer;
+    Startup startup;  ///< until the first frame is drawn
 
-    /// Animates to `time` and draws one frame.
+    /// Draws one frame of the scene as it is at `time`.
     void draw(const View& view, double time);
     /// Timer mode that is right for this driver: queries on real ones, finish-to-finish on software rasterisers.
     [[nodiscard]] gl::TimerMode timer_mode() const;
     /// FrameOptions::layer is one of them.
     [[nodiscard]] static std::vector<std::string> layer_names();
+
+  private:
+    bool started_ = false;  ///< a frame was drawn
 };
 
 }  // namespace tyndall

@@ -1,7 +1,6 @@
 #include "engine/core/files.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -12,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/core/error.h"
+#include "engine/core/output_files.h"
 
 namespace tyndall {
 namespace {
@@ -94,30 +94,10 @@ nlohmann::json read_json(const fs::path& path) {
     }
 }
 
-void write_atomically(const fs::path& path, const std::function<void(const fs::path&)>& write) {
-    std::error_code error;
-    const fs::file_status status = fs::status(path, error);
-    if (fs::exists(status) && !fs::is_regular_file(status)) fail(path, "write", "it is not a regular file");
-    const fs::path target = fs::exists(status) ? fs::canonical(path) : path;
-    const fs::path partial = target.parent_path() / fmt::format(".{}.partial{}{}", target.stem().string(),
-                                                                ::getpid(), target.extension().string());
-    try {
-        write(partial);
-        fs::rename(partial, target, error);
-        if (error) fail(path, "write", error.message());
-    } catch (...) {
-        fs::remove(partial, error);
-        throw;
-    }
-}
-
 void write_text(const fs::path& path, const std::string& text) {
-    write_atomically(path, [&](const fs::path& partial) {
-        File file(std::fopen(partial.c_str(), "wb"), std::fclose);
-        if (!file) fail(path, "write", std::strerror(errno));
-        const bool written = std::fwrite(text.data(), 1, text.size(), file.get()) == text.size();
-        if (std::fclose(file.release()) != 0 || !written) fail(path, "write", std::strerror(errno));
-    });
+    OutputFiles files;
+    files.add(path, text);
+    files.commit();
 }
 
 fs::path data_root() {

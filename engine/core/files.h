@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
@@ -16,10 +15,7 @@ namespace tyndall {
 [[nodiscard]] nlohmann::json parse_json(std::string_view text);
 [[nodiscard]] nlohmann::json read_json(const std::filesystem::path& path);  ///< error has line and column
 
-/// Calls `write` with a temporary path beside `path` (same extension) and renames it when it returns: a failure
-/// leaves neither a partial file nor a changed old one.
-void write_atomically(const std::filesystem::path& path,
-                      const std::function<void(const std::filesystem::path&)>& write);
+/// A failure leaves neither a partial file nor a changed old one (output_files.h).
 void write_text(const std::filesystem::path& path, const std::string& text);
 
 /// The folder that holds shaders/ and assets/: $TYNDALL_DATA, else the source folder the build was made from.

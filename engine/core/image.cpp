@@ -12,6 +12,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/files.h"
+#include "engine/core/image_encode.h"
 #include "engine/core/image_png.h"
 
 namespace tyndall {
@@ -64,8 +65,11 @@ Image convert_channels(const Image& from, int alpha_channel, int channels) {
 Image decode_image(std::span<const std::uint8_t> bytes, const std::string& name, int channels) {
     const std::string_view format = sniff(bytes);
     if (format.empty()) fail(name, "read", "PNG, JPEG, EXR or HDR expected");
-    std::vector<std::uint8_t> chunks;
-    if (format == "png") bytes = chunks = critical_png_chunks(bytes, name);
+    if (format == "png") {
+        Image image = decode_png(bytes, name, max_side);
+        if (channels == 0 || channels == image.channels) return image;
+        return convert_channels(image, image.channels % 2 == 0 ? image.channels - 1 : -1, channels);
+    }
     OIIO::Filesystem::IOMemReader reader(const_cast<std::uint8_t*>(bytes.data()), bytes.size());
     const auto input = OIIO::ImageInput::create("memory." + std::string(format), false, nullptr, &reader);
     if (!input) fail(name, "read", OIIO::geterror());
@@ -94,7 +98,7 @@ Image read_image(const fs::path& path, int channels) {
     return decode_image(read_bytes(path), path.string(), channels);
 }
 
-void write_image(const fs::path& path, const Image& image) {
+std::string encode_image(const fs::path& path, const Image& image) {
     const std::string extension = path.extension().string();
     const bool png = extension == ".png";
     if (!png && extension != ".exr") fail(path.string(), "write", "a name that ends in .png or .exr expected");
@@ -118,7 +122,11 @@ void write_image(const fs::path& path, const Image& image) {
     if (!output->open("memory" + extension, spec) || !output->write_image(spec.format, data) || !output->close()) {
         fail(path.string(), "write", output->geterror());
     }
-    write_text(path, std::string(file.begin(), file.end()));
+    return {file.begin(), file.end()};
+}
+
+void write_image(const fs::path& path, const Image& image) {
+    write_text(path, encode_image(path, image));
 }
 
 }  // namespace tyndall

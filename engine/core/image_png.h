@@ -3,14 +3,14 @@
 #include <cstdint>
 #include <span>
 #include <string>
-#include <vector>
+
+#include "engine/core/image.h"
 
 namespace tyndall {
 
-/// The PNG file with only the chunks that its pixels need (PNG specification, section 5), their checksums verified.
-/// libpng prints to stderr about damaged and about odd ancillary chunks; this way there is nothing to print.
-/// Throws Error, which begins with `name`, if the file ends early or a checksum is wrong.
-[[nodiscard]] std::vector<std::uint8_t> critical_png_chunks(std::span<const std::uint8_t> png,
-                                                            const std::string& name);
+/// Decodes a PNG file with libpng itself: read through OpenImageIO, libpng would print about damaged and odd files
+/// to stderr. Values are 0..1 as stored, palettes become colours, and the channels are grey, grey and alpha, RGB or
+/// RGBA. Throws Error, which begins with `name`; a side of more than `max_side` pixels is one.
+[[nodiscard]] Image decode_png(std::span<const std::uint8_t> bytes, const std::string& name, int max_side);
 
 }  // namespace tyndall

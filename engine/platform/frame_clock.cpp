@@ -5,7 +5,6 @@
 namespace tyndall {
 
 double FrameClock::tick() {
-    constexpr double longest_step = 0.1;
     double step = fixed_;
     if (fixed_ == 0) {
         const auto now = std::chrono::steady_clock::now();

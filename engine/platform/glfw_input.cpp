@@ -49,6 +49,11 @@ Key to_key(int glfw_key) {
     return found == std::end(named_keys) ? Key::count : found->second;
 }
 
+Input::Modifiers to_modifiers(int glfw_modifiers) {
+    const auto held = [&](int bit) { return (glfw_modifiers & bit) != 0; };
+    return {held(GLFW_MOD_SHIFT), held(GLFW_MOD_CONTROL), held(GLFW_MOD_ALT)};
+}
+
 void append_utf8(std::string& text, unsigned codepoint) {
     const auto byte = [&](unsigned prefix, unsigned shift) {
         text += static_cast<char>(prefix | ((codepoint >> shift) & 0x3F));
@@ -75,9 +80,12 @@ void append_utf8(std::string& text, unsigned codepoint) {
 GlfwInput::GlfwInput(GLFWwindow* window, Input& input) : window_(window), input_(input) {
     glfwSetWindowUserPointer(window, this);
     glfwGetCursorPos(window, &input.pointer.x, &input.pointer.y);
-    glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int, int action, int) { of(w).on_key(key, action); });
-    glfwSetMouseButtonCallback(window,
-                               [](GLFWwindow* w, int button, int action, int) { of(w).on_button(button, action); });
+    glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int, int action, int modifiers) {
+        of(w).on_key(key, action, modifiers);
+    });
+    glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int button, int action, int modifiers) {
+        of(w).on_button(button, action, modifiers);
+    });
     glfwSetCharCallback(window,
                         [](GLFWwindow* w, unsigned codepoint) { append_utf8(of(w).input_.text, codepoint); });
     glfwSetScrollCallback(window, [](GLFWwindow* w, double, double y) { of(w).input_.scroll += y; });
@@ -92,25 +100,31 @@ GlfwInput& GlfwInput::of(GLFWwindow* window) {
     return *static_cast<GlfwInput*>(glfwGetWindowUserPointer(window));
 }
 
-void GlfwInput::on_key(int glfw_key, int action) {
+void GlfwInput::on_key(int glfw_key, int action, int modifiers) {
     const Key key = to_key(glfw_key);
     if (key == Key::count || action == GLFW_REPEAT) return;
     const auto index = static_cast<std::size_t>(key);
-    if (action == GLFW_PRESS) input_.keys_pressed[index] = !input_.keys_down[index] || input_.keys_pressed[index];
+    if (action == GLFW_PRESS) {
+        input_.keys_pressed[index] = !input_.keys_down[index] || input_.keys_pressed[index];
+        const bool is_modifier = key == Key::shift || key == Key::control || key == Key::alt;
+        if (!is_modifier && input_.buttons_pressed.none()) input_.press_modifiers = to_modifiers(modifiers);
+    }
     input_.keys_down[index] = action == GLFW_PRESS;
     for (const auto& [other, mapped] : named_keys) {  // the left one may still be held when the right one goes up
         if (mapped == key && glfwGetKey(window_, other) == GLFW_PRESS) input_.keys_down[index] = true;
     }
 }
 
-void GlfwInput::on_button(int glfw_button, int action) {
+void GlfwInput::on_button(int glfw_button, int action, int modifiers) {
     static_assert(GLFW_MOUSE_BUTTON_LEFT == int(MouseButton::left) &&
                   GLFW_MOUSE_BUTTON_RIGHT == int(MouseButton::right) &&
                   GLFW_MOUSE_BUTTON_MIDDLE == int(MouseButton::middle));
     if (glfw_button >= static_cast<int>(MouseButton::count)) return;
     const auto index = static_cast<std::size_t>(glfw_button);
     input_.buttons_down[index] = action == GLFW_PRESS;
-    if (action == GLFW_PRESS) input_.buttons_pressed[index] = true;
+    if (action != GLFW_PRESS) return;
+    input_.buttons_pressed[index] = true;
+    input_.press_modifiers = to_modifiers(modifiers);
 }
 
 void GlfwInput::poll() {

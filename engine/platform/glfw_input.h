@@ -18,8 +18,8 @@ class GlfwInput {
 
   private:
     static GlfwInput& of(GLFWwindow* window);
-    void on_key(int glfw_key, int action);
-    void on_button(int glfw_button, int action);
+    void on_key(int glfw_key, int action, int modifiers);
+    void on_button(int glfw_button, int action, int modifiers);
     void poll_gamepad();
 
     GLFWwindow* window_;

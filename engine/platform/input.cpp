@@ -8,10 +8,15 @@ namespace tyndall {
 void Input::begin_poll() {
     keys_pressed.reset();
     buttons_pressed.reset();
+    press_modifiers.reset();
     pointer_delta = glm::dvec2(0);
     scroll = 0;
     text.clear();
     gamepad.jump = gamepad.fly = gamepad.menu = false;
+}
+
+Input::Modifiers Input::modifiers() const {
+    return press_modifiers.value_or(Modifiers{down(Key::shift), down(Key::control), down(Key::alt)});
 }
 
 glm::vec2 remove_dead_zone(glm::vec2 stick, float radius) {

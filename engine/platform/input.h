@@ -2,6 +2,7 @@
 
 #include <bitset>
 #include <glm/vec2.hpp>
+#include <optional>
 #include <string>
 
 namespace tyndall {
@@ -84,6 +85,12 @@ enum class MouseButton { left, right, middle, count };
 struct Input {
     std::bitset<static_cast<int>(Key::count)> keys_down, keys_pressed;
     std::bitset<static_cast<int>(MouseButton::count)> buttons_down, buttons_pressed;
+    /// Shift, control and alt as they were at the latest press of a button or, without one, of a key since the last
+    /// poll: in a slow frame they may have come and gone with it.
+    struct Modifiers {
+        bool shift = false, control = false, alt = false;
+    };
+    std::optional<Modifiers> press_modifiers;
     glm::dvec2 pointer{0};        ///< window pixels from the top left
     glm::dvec2 pointer_delta{0};  ///< since the last poll
     double scroll = 0;
@@ -99,6 +106,8 @@ struct Input {
     [[nodiscard]] bool pressed(Key k) const { return keys_pressed[static_cast<int>(k)]; }
     /// Forgets edges and deltas: back ends call it at the start of a poll.
     void begin_poll();
+    /// Those of `press_modifiers`, else the keys that are down.
+    [[nodiscard]] Modifiers modifiers() const;
 };
 
 /// A stick's position with the inner `radius` (a worn stick's rest) cut away; the rest is stretched back to 0..1.

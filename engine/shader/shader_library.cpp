@@ -12,6 +12,7 @@
 
 #include "engine/core/check.h"
 #include "engine/core/error.h"
+#include "engine/shader/build_time.h"
 
 namespace tyndall {
 namespace {
@@ -108,7 +109,19 @@ std::string one_line(const std::string& message) {
     return summary + ": " + first;
 }
 
+double build_seconds = 0;
+
+/// Adds its own lifetime.
+struct BuildTimer {
+    double begin = seconds_now();
+    ~BuildTimer() { build_seconds += seconds_now() - begin; }
+};
+
 }  // namespace
+
+double seconds_building_shaders() {
+    return build_seconds;
+}
 
 struct ShaderLibrary::Entry {
     const ProgramDesc& desc;
@@ -122,6 +135,7 @@ struct ShaderLibrary::Entry {
     }
 
     void build(const fs::path& root) {
+        const BuildTimer timer;
         std::vector<fs::path> read;
         const auto watch = [&] {
             for (const fs::path& path : read) files[path] = time_of(path);

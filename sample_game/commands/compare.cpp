@@ -9,8 +9,11 @@
 #include "engine/core/flip.h"
 #include "engine/core/image.h"
 #include "engine/core/image_edges.h"
+#include "engine/core/image_encode.h"
 #include "engine/core/image_metrics.h"
+#include "engine/core/output_files.h"
 #include "sample_game/commands/commands.h"
+#include "session/scene_options.h"
 
 namespace tyndall {
 namespace {
@@ -50,7 +53,17 @@ Image threshold_of(const CompareOptions& o, const Image& a, const Image& b) {
     return threshold_picture(radiance_to_display(a, white), radiance_to_display(b, white), visible_difference);
 }
 
+void check_pictures(const CompareOptions& o) {
+    std::vector<NamedFile> inputs{{"A", o.a}, {"B", o.b}}, outputs;
+    if (o.edges) inputs.push_back({"--edges", *o.edges});
+    if (o.heatmap) outputs.push_back({"--heatmap", *o.heatmap});
+    if (o.threshold) outputs.push_back({"--threshold", *o.threshold});
+    for (const NamedFile& output : outputs) check_picture_name(output.option, output.path);
+    check_outputs(outputs, inputs);
+}
+
 void run(const CompareOptions& o) {
+    check_pictures(o);
     if (holds_radiance(o.a) != holds_radiance(o.b))
         throw UsageError(fmt::format(
             "cannot compare {} with {}: one holds display values, the other linear radiance", o.a, o.b));
@@ -74,22 +87,25 @@ void run(const CompareOptions& o) {
                              : name == "max"     ? d.max
                                                  : mean_value(flip);
         result[name] = value;
-        if (!o.json) fmt::print("{:<6} {:.9g}\n", name, value);
     }
     if (o.edges) {
         const MaskedError error = masked_relative_rmse(a, b, edge_band(read_image(*o.edges, 1), band_radius));
         const std::pair<const char*, double> values[]{
             {"edges", error.inside}, {"elsewhere", error.outside}, {"edge_share", error.share}};
-        for (const auto& [name, value] : values) {
-            result[name] = value;
-            if (!o.json) fmt::print("{:<6} {:.9g}\n", name, value);
-        }
+        for (const auto& [name, value] : values) result[name] = value;
     }
-    if (o.json) fmt::print("{}\n", result.dump());
+    OutputFiles files;
     if (o.heatmap)
-        write_image(*o.heatmap, only_flip ? flip_heatmap(flip)
-                                          : difference_heatmap(a, b, static_cast<float>(std::max(d.max, 1e-12))));
-    if (o.threshold) write_image(*o.threshold, threshold_of(o, a, b));
+        files.add(*o.heatmap,
+                  encode_image(*o.heatmap,
+                               only_flip ? flip_heatmap(flip)
+                                         : difference_heatmap(a, b, static_cast<float>(std::max(d.max, 1e-12)))));
+    if (o.threshold) files.add(*o.threshold, encode_image(*o.threshold, threshold_of(o, a, b)));
+    files.commit();
+    if (o.json)
+        fmt::print("{}\n", result.dump());
+    else
+        for (const auto& [name, value] : result.items()) fmt::print("{:<6} {:.9g}\n", name, value.get<double>());
 }
 
 }  // namespace

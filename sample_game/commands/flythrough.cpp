@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "sample_game/commands/commands.h"
+#include "session/number_option.h"
 
 namespace tyndall {
 
@@ -19,10 +20,10 @@ void add_flythrough_command(CLI::App& app) {
     o->draw.add_to(*command, "", "640x360");
     command->add_option("--out", o->path.out, "folder for the tables and stills")->required();
     command->add_option("--frames-per-second", o->path.frames_per_second, "fixed time steps along the path")
-        ->check(CLI::Range(0.1, 240.0))
+        ->check(number_in(0.1, 240))
         ->capture_default_str();
     command->add_option("--duration", o->path.duration, "seconds of the path (default: all)")
-        ->check(CLI::PositiveNumber);
+        ->check(number_in(1e-3, 1e6));
     command->callback([o] {
         Session session(o->draw, false);
         fly_through(session, o->path);

@@ -2,11 +2,15 @@
 
 #include <cstdlib>
 #include <memory>
+#include <optional>
 
+#include "engine/core/error.h"
 #include "engine/core/files.h"
 #include "sample_game/commands/commands.h"
 #include "sample_game/flythrough.h"
 #include "sample_game/game.h"
+#include "sample_game/ui/loading_picture.h"
+#include "session/number_option.h"
 
 namespace tyndall {
 namespace {
@@ -30,27 +34,55 @@ void add_play_command(CLI::App& app) {
     auto o = std::make_shared<Options>();
     CLI::App* command = app.add_subcommand("play", "Walk through a level; with no display, render its fly-through");
     o->draw.add_to(*command, (data_root() / "assets/levels/abbey.glb").string(), "1280x720");
-    command->add_option("--frames", o->game.frames, "quit after so many frames")->check(CLI::PositiveNumber);
+    command->add_option("--frames", o->game.frames, "quit after so many frames")->check(CLI::Range(1, 1000000000));
     command->add_option("--fixed-step", o->game.fixed_step, "seconds per frame instead of the wall clock")
-        ->check(CLI::Range(1e-4, 1.0));
+        ->check(number_in(1e-4, 1));
     command->add_option("--screenshot", o->game.screenshot, "picture of the last frame, with the HUD");
     command->add_option("--stats", o->game.stats,
                         "JSON as of render, with the player; written at each F2 picture and at the end");
     command->add_option("--out", o->path.out, "without a display: folder of the fly-through")
         ->capture_default_str();
     command->add_option("--duration", o->path.duration, "without a display: seconds of the fly-through's path")
-        ->check(CLI::PositiveNumber);
+        ->check(number_in(1e-3, 1e6));
     command->callback([o, command] {
         if (!has_display() && parse_context_kind(o->draw.context) == ContextKind::automatic) {
+            for (const char* option : {"--frames", "--fixed-step", "--screenshot", "--stats"})
+                if (command->count(option) > 0) throw Error(fmt::format("no display, which {} needs", option));
             fmt::print(stderr, "tyndall: no display, so the fly-through is rendered into {}\n",
                        o->path.out.string());
             if (command->count("--size") == 0) o->draw.size = "640x360";
-            Session session(o->draw, false);
+            const auto say = [](Session&, const std::string& doing) { fmt::print(stderr, "{}\n", doing); };
+            Session session(o->draw, false, say);
+            if (session.context->capabilities().software) {
+                if (command->count("--size") == 0) session.size = {384, 216};
+                if (!o->draw.preset) {
+                    o->draw.preset = "fast";
+                    o->draw.apply(session.settings);
+                }
+                o->path.frames_per_second = 1;
+                fmt::print(stderr, "no GPU, so {}x{} pixels, preset {}, {} frame a second of the path\n",
+                           session.size.x, session.size.y, *o->draw.preset, o->path.frames_per_second);
+            }
+            o->path.lines = true;
             fly_through(session, o->path);
             fmt::print("{}\n", (o->path.out / "summary.md").string());
             return;
         }
-        Session session(o->draw, true);
+        std::vector<NamedFile> outputs;
+        if (o->game.screenshot) {
+            check_picture_name("--screenshot", *o->game.screenshot);
+            outputs.push_back({"--screenshot", *o->game.screenshot});
+        }
+        if (o->game.stats) outputs.push_back({"--stats", *o->game.stats});
+        check_outputs(outputs, o->draw.inputs());
+        std::optional<LoadingPicture> picture;
+        float share = 0;
+        Session session(o->draw, true, [&](Session& opening, const std::string& doing) {
+            if (!picture) picture.emplace(*opening.context, *opening.shaders);
+            picture->show(doing, share += 0.25f);
+        });
+        o->game.early_keys = picture->keys_pressed();
+        picture.reset();  // what it has shown stays until the first frame
         play(session, o->game);
     });
 }

@@ -3,15 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
+#include <array>
 #include <map>
 #include <memory>
 
-#include "engine/core/error.h"
 #include "engine/core/image.h"
+#include "engine/core/output_files.h"
 #include "engine/render/passes/tonemap.h"
 #include "engine/render/render_settings.h"
 #include "sample_game/commands/commands.h"
+#include "session/number_option.h"
 #include "session/progress.h"
 #include "session/scene_options.h"
 #include "shaders/lib/glm_subset.h"
@@ -65,16 +66,9 @@ void print_error(const reference::Picture& picture) {
         fmt::print("scattering: none\n");
 }
 
-/// Before hours of work, not after.
-void check_folder(const std::filesystem::path& file) {
-    const std::filesystem::path folder = std::filesystem::absolute(file).parent_path();
-    if (!std::filesystem::is_directory(folder) || std::filesystem::is_directory(file))
-        throw Error(fmt::format("{}: cannot be written: no such folder, or a folder itself", file.string()));
-}
-
 void run(const ReferenceOptions& o) {
-    check_picture_name(o.output);
-    check_folder(o.output);
+    check_picture_name("--output", o.output);
+    check_outputs(std::array{NamedFile{"--output", o.output}}, o.scene.inputs());
     o.view.check();
     volumetrics::Settings volumetrics;
     RenderSettings render;
@@ -133,7 +127,7 @@ void add_reference_command(CLI::App& app) {
         ->check(CLI::Range(0, 1024))
         ->capture_default_str();
     command->add_option("--tolerance", o->tolerance, "of the scattering of a ray, relative")
-        ->check(CLI::Range(1e-12, 0.1))
+        ->check(number_in(1e-12, 0.1))
         ->capture_default_str();
     command->add_flag("--black-surfaces", o->black_surfaces, "surfaces block and hide, and send no light");
     command->add_flag("--black-sky", o->black_sky, "nothing is seen behind the scene");

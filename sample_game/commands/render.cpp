@@ -2,10 +2,12 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "engine/core/files.h"
 #include "engine/core/image.h"
+#include "engine/core/image_encode.h"
+#include "engine/core/output_files.h"
 #include "sample_game/commands/commands.h"
 #include "sample_game/stats_json.h"
+#include "session/number_option.h"
 #include "session/session.h"
 
 namespace tyndall {
@@ -22,7 +24,10 @@ struct RenderOptions {
 };
 
 void run(const RenderOptions& o) {
-    check_picture_name(o.output);
+    check_picture_name("--output", o.output);
+    std::vector<NamedFile> outputs{{"--output", o.output}};
+    if (o.stats) outputs.push_back({"--stats", *o.stats});
+    check_outputs(outputs, o.draw.inputs());
     o.view.check();
 
     Session session(o.draw, false);
@@ -35,8 +40,11 @@ void run(const RenderOptions& o) {
         session.draw(o.view.view(session.scene, session.size), time);
     }
     const bool display = o.output.ends_with(".png") && o.layer == "color";
-    write_image(o.output, display ? session.renderer->read_display() : session.renderer->read_layer());
-    if (o.stats) write_text(*o.stats, stats_json(session).dump(2) + "\n");
+    OutputFiles files;
+    files.add(o.output,
+              encode_image(o.output, display ? session.renderer->read_display() : session.renderer->read_layer()));
+    if (o.stats) files.add(*o.stats, stats_json(session).dump(2) + "\n");
+    files.commit();
 }
 
 }  // namespace
@@ -53,7 +61,7 @@ void add_render_command(CLI::App& app) {
     command
         ->add_option("--frame-time", o->frame_time,
                      "seconds from frame to frame, the last is at --time; 0: nothing moves")
-        ->check(CLI::Range(0.0, 10.0))
+        ->check(number_in(0, 10))
         ->capture_default_str();
     command->add_option("--layer", o->layer, "what to write")
         ->check(CLI::IsMember(Session::layer_names()))

@@ -42,17 +42,19 @@ void ImguiInput::feed(const Input& input, glm::ivec2 size, double dt, bool point
     // A key or button that went down and up within one slow frame counts for that frame. Some widgets notice a
     // press only when the pointer was there the frame before.
     const bool moved = input.pointer_delta != glm::dvec2(0);
+    const Input::Modifiers modifiers = late_.any() && late_modifiers_ ? *late_modifiers_ : input.modifiers();
     for (std::size_t i = 0; i < late_.size(); ++i) {
         const bool pressed = input.buttons_pressed[i];
         io.MouseDown[i] = pointer_is_free && (late_[i] || input.buttons_down[i] || pressed) && !(pressed && moved);
         late_[i] = pressed && moved;
     }
+    late_modifiers_ = input.press_modifiers;
     io.MouseWheel = pointer_is_free ? static_cast<float>(input.scroll) : 0.0f;
     for (int key = 0; key < static_cast<int>(Key::count); ++key)
         io.KeysDown[key] = input.keys_down[key] || input.keys_pressed[key];
-    io.KeyShift = input.down(Key::shift);
-    io.KeyCtrl = input.down(Key::control);
-    io.KeyAlt = input.down(Key::alt);
+    io.KeyShift = modifiers.shift;
+    io.KeyCtrl = modifiers.control;
+    io.KeyAlt = modifiers.alt;
     io.AddInputCharactersUTF8(input.text.c_str());
 }
 

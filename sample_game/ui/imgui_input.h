@@ -2,6 +2,7 @@
 
 #include <bitset>
 #include <glm/vec2.hpp>
+#include <optional>
 
 #include "engine/platform/input.h"
 
@@ -16,7 +17,8 @@ class ImguiInput {
 
   private:
     std::bitset<static_cast<int>(MouseButton::count)>
-        late_;  ///< pressed as the pointer arrived: told a frame later
+        late_;                                        ///< pressed as the pointer arrived: told a frame later
+    std::optional<Input::Modifiers> late_modifiers_;  ///< of that press
 };
 
 }  // namespace tyndall

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <fstream>
 
+#include "engine/core/image.h"
 #include "support/command.h"
 
 namespace tyndall::test {
@@ -52,7 +53,9 @@ class BadInput : public ::testing::TestWithParam<Case> {
               R"({"asset":{"version":"2.0"},"images":[{"uri":"bad.png"}],"textures":[{"source":0}],)"
               R"("materials":[{"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}}],"scenes":[{}]})");
         write(folder_ / "bad.png", "this is no picture");
+        write_image(folder_ / "good.png", Image({2, 2}, 3));
         std::filesystem::create_directory(folder_ / "folder.png");
+        std::filesystem::create_symlink(folder_ / "none/lost.png", folder_ / "lost.png");
     }
     TemporaryFolder folder_;
 };
@@ -68,10 +71,17 @@ TEST_P(BadInput, OneLineTheRightCodeAndNothingWritten) {
     EXPECT_TRUE(result.err.starts_with("tyndall: ")) << result.err;
     for (const std::string& word : c.says)
         EXPECT_NE(result.err.find(word), std::string::npos) << word << "\n" << result.err;
+    EXPECT_EQ(result.out, "");
     EXPECT_FALSE(std::filesystem::exists(folder_ / "out.png"));
     EXPECT_FALSE(std::filesystem::exists(folder_ / "out.exr"));
     for (const auto& entry : std::filesystem::directory_iterator(folder_.path()))
-        EXPECT_EQ(entry.path().filename().string().find("tmp"), std::string::npos) << entry.path();
+        EXPECT_EQ(entry.path().filename().string().find(".partial"), std::string::npos) << entry.path();
+}
+
+std::vector<std::string> reference(std::vector<std::string> more, const std::string& scene = "{level}") {
+    std::vector<std::string> a{"reference", scene, "-o", "{tmp}/out.exr", "--size", "8x8"};
+    a.insert(a.end(), more.begin(), more.end());
+    return a;
 }
 
 std::vector<std::string> render(const std::string& scene, std::vector<std::string> more = {},
@@ -126,6 +136,76 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"UnknownExtension", render("{level}", {}, "{tmp}/out.gif"), 2, {"out.gif", ".png", ".exr"}},
         Case{"UnwritableOutput", render("{level}", {}, "{tmp}/no/such/out.png"), 1, {"no/such/out.png"}},
         Case{"OutputIsAFolder", render("{level}", {}, "{tmp}/folder.png"), 1, {"folder.png"}},
+        Case{"EyeNotANumber",
+             render("{level}", {"--eye", "nan,1,5", "--look", "0,0,0"}),
+             2,
+             {"--eye", "nan", "1000000"}},
+        Case{"EyeInfinite",
+             render("{level}", {"--eye", "0,inf,5", "--look", "0,0,0"}),
+             2,
+             {"--eye", "inf", "1000000"}},
+        Case{"EyeFarOut",
+             render("{level}", {"--eye", "0,1,1e20", "--look", "0,0,0"}),
+             2,
+             {"--eye", "1e20", "1000000"}},
+        Case{"LookNotANumber", render("{level}", {"--eye", "0,1,5", "--look", "0,-nan,0"}), 2, {"--look", "nan"}},
+        Case{"LookIsEye", render("{level}", {"--eye", "0,1,5", "--look", "0,1,5"}), 2, {"--look", "--eye"}},
+        Case{"TimeNotANumber", render("{level}", {"--time", "nan"}), 2, {"--time", "nan", "1000000"}},
+        Case{"TimeInfinite", render("{level}", {"--time", "-inf"}), 2, {"--time", "inf"}},
+        Case{"FovNotANumber",
+             render("{level}", {"--eye", "0,1,5", "--look", "0,0,0", "--fov", "nan"}),
+             2,
+             {"--fov", "170"}},
+        Case{"FovWithoutEye", render("{level}", {"--fov", "40"}), 2, {"--fov", "--eye"}},
+        Case{"FovOfACamera", render("{level}", {"--fov", "40", "--camera", "Sun"}), 2, {"--fov", "--eye"}},
+        Case{"FrameTimeNotANumber", render("{level}", {"--frame-time", "nan"}), 2, {"--frame-time", "nan"}},
+        Case{"SettingNotANumber", render("{level}", {"--set", "ambient=nan"}), 2, {"ambient", "nan"}},
+        Case{"SettingInfinite", render("{level}", {"--set", "ambient=inf"}), 2, {"ambient", "inf"}},
+        Case{"ReferenceEyeNotANumber", reference({"--eye", "nan,1,5", "--look", "0,0,0"}), 2, {"--eye", "nan"}},
+        Case{"ReferenceToleranceNotANumber", reference({"--tolerance", "nan"}), 2, {"--tolerance", "nan"}},
+        Case{"FlythroughRateNotANumber",
+             {"flythrough", "{level}", "--out", "{tmp}/fly", "--frames-per-second", "nan"},
+             2,
+             {"--frames-per-second", "nan"}},
+        Case{"FlythroughDurationNotANumber",
+             {"flythrough", "{level}", "--out", "{tmp}/fly", "--duration", "nan"},
+             2,
+             {"--duration", "nan"}},
+        Case{"FixedStepNotANumber", {"play", "{level}", "--fixed-step", "nan"}, 2, {"--fixed-step", "nan"}},
+        Case{"UnwritableStats", render("{level}", {"--stats", "{tmp}/no/stats.json"}), 1, {"no/stats.json"}},
+        Case{"StatsAreAFolder", render("{level}", {"--stats", "{tmp}/folder.png"}), 1, {"folder.png"}},
+        Case{"StatsAreTheOutput", render("{level}", {"--stats", "{tmp}/./out.png"}), 2, {"--stats", "--output"}},
+        Case{"StatsAreTheScene",
+             render("{tmp}/flat_camera.gltf", {"--stats", "{tmp}/flat_camera.gltf"}),
+             2,
+             {"--stats", "SCENE"}},
+        Case{"OutputLinkToNowhere", render("{level}", {}, "{tmp}/lost.png"), 1, {"lost.png"}},
+        Case{"PlayScreenshotExtension",
+             {"play", "{level}", "--screenshot", "{tmp}/out.gif", "--context", "egl"},
+             2,
+             {"--screenshot", "out.gif"}},
+        Case{"PlayScreenshotIsTheStats",
+             {"play", "{level}", "--screenshot", "{tmp}/out.png", "--stats", "{tmp}/out.png", "--context", "egl"},
+             2,
+             {"--stats", "--screenshot"}},
+        Case{"PlayStatsWithoutADisplay",
+             {"play", "{level}", "--stats", "{tmp}/stats.json"},
+             1,
+             {"display", "--stats"},
+             {"DISPLAY", "WAYLAND_DISPLAY"}},
+        Case{"CompareHeatmapIsTheThreshold",
+             {"compare", "{tmp}/good.png", "{tmp}/good.png", "--heatmap", "{tmp}/out.png", "--threshold",
+              "{tmp}/out.png"},
+             2,
+             {"--threshold", "--heatmap"}},
+        Case{"CompareHeatmapIsAnInput",
+             {"compare", "{tmp}/good.png", "{tmp}/good.png", "--heatmap", "{tmp}/good.png"},
+             2,
+             {"--heatmap"}},
+        Case{"CompareUnwritableHeatmap",
+             {"compare", "{tmp}/good.png", "{tmp}/good.png", "--heatmap", "{tmp}/no/out.png"},
+             1,
+             {"no/out.png"}},
         Case{"EyeWithoutLook", render("{level}", {"--eye", "0,0,0"}), 2, {"--look"}},
         Case{"CompareMissing", {"compare", "{tmp}/a.png", "{tmp}/b.png"}, 1, {"a.png"}},
         Case{"CompareUnknownMetric", {"compare", "a.png", "b.png", "--metric", "beauty"}, 2, {"beauty", "rmse"}},

@@ -33,6 +33,11 @@ class BoxScene {
         add(std::move(mesh), animated);
         return *this;
     }
+    BoxScene& surroundings(glm::vec3 low, glm::vec3 high) {
+        box(low, high);
+        scene_.nodes.back().name = "terrain";
+        return *this;
+    }
     /// A plane that rises towards -Z from (0, 0, z) by `degrees`, 20 m long.
     BoxScene& slope(float z, float degrees) {
         const float rise = 20 * std::sin(glm::radians(degrees)), run = 20 * std::cos(glm::radians(degrees));
@@ -93,7 +98,7 @@ TEST(Player, StandsAtEyeHeightWithoutTrembling) {
 }
 
 TEST(Player, WalksAtTheSameSpeedAtEveryFrameRate) {
-    for (const double rate : {20.0, 30.0, 60.0, 144.0}) {
+    for (const double rate : {0.5, 1.0, 5.0, 20.0, 30.0, 60.0, 144.0}) {
         Player player(BoxScene().floor().scene());
         run(player, {}, 0.5);
         const glm::vec3 from = player.eye();
@@ -118,6 +123,35 @@ TEST(Player, MovesInProportionToFramesOfUnequalLength) {
         EXPECT_NEAR(player.eye().y, last.y, 2e-3) << i;
         last = player.eye();
     }
+}
+
+TEST(Player, SlowFramesLeadWhereFastOnesDo) {
+    // Round a corner of a wall and down a step, for 12 s, with a stick that turns.
+    const auto end = [](double dt) {
+        Player player(BoxScene().floor().box({-3, 0, -6}, {3, 2, -5}).box({-9, 0, -20}, {9, 0.2f, -2}).scene());
+        run(player, {}, 2);
+        Input input = holding({Key::w, Key::shift});
+        input.gamepad.right = {0.1f, 0};
+        run(player, input, 12, dt);
+        return player.eye();
+    };
+    const glm::vec3 fast = end(1.0 / 60);
+    EXPECT_GT(glm::length(fast - glm::vec3(0, eye_height, 0)), 8.0f);
+    for (const double dt : {1.0 / 10, 0.5, 1.0, 2.0})
+        EXPECT_LT(glm::length(end(dt) - fast), 0.05f) << dt << " s a frame";
+    EXPECT_EQ(end(1), end(1));
+}
+
+TEST(Player, FliesEquallyFarAtEveryFrameRateAndRoundTheSameCurve) {
+    const auto end = [](double dt) {
+        Player player(BoxScene().floor().scene());
+        player.set_flying(true);
+        Input input = holding({Key::w});
+        input.gamepad.right = {0.3f, 0};
+        run(player, input, 4, dt);
+        return player.eye();
+    };
+    EXPECT_LT(glm::length(end(1) - end(1.0 / 60)), 0.05f);
 }
 
 TEST(Player, ShiftRunsAndDiagonalsAreNotFaster) {
@@ -231,6 +265,29 @@ TEST(Player, WhoLeavesTheWorldStartsAgain) {
     ASSERT_TRUE(again);
     EXPECT_NEAR(glm::length(player.eye() - glm::vec3(0, eye_height, 0)), 0, 0.1);
     EXPECT_NEAR(player.direction().z, -1, 1e-4);
+}
+
+TEST(Player, WhoWalksOutOfTheLevelOntoItsSurroundingsIsBackAtOnce) {
+    BoxScene scene;
+    scene.box({-3, -1, -3}, {3, 0, 3}).surroundings({-50, -3, -50}, {50, -1.7f, 50});
+    Player player(scene.scene());
+    run(player, {}, 0.5);
+    int cuts = 0;
+    for (int i = 0; i < 300; ++i) {
+        cuts += player.update(holding({Key::w}), 1.0 / 30, false) ? 1 : 0;
+        EXPECT_TRUE(!player.on_ground() || player.eye().y > 1.5f) << "never stands on the surroundings";
+    }
+    EXPECT_GE(cuts, 1);
+    EXPECT_LT(std::abs(player.eye().z), 4);
+    EXPECT_NEAR(player.direction().z, -1, 1e-4);
+
+    player.set_flying(true);  // who comes flying may walk there
+    player.place({0, 3, -20}, {0, 0, -1});
+    player.set_flying(false);
+    run(player, {}, 3);
+    run(player, holding({Key::w}), 1);
+    EXPECT_NEAR(player.eye().y, eye_height - 1.7f, 0.08);
+    EXPECT_LT(player.eye().z, -22);
 }
 
 TEST(Player, FliesAlongItsViewThroughWalls) {

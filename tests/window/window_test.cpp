@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "engine/scene/scene.h"
 #include "sample_game/ui/settings_sections.h"
 #include "support/game_process.h"
+#include "support/scenes.h"
 #include "volumetrics/settings.h"
 
 namespace tyndall::test {
@@ -171,6 +173,49 @@ TEST(Window, WalkLookAndTheDebugUi) {
     game.key("Escape");  // the game
     EXPECT_EQ(game.wait_for_exit(), 0);
     EXPECT_EQ(game.stats().at("gl_messages"), 0);
+}
+
+class SmallGame : public ::testing::Test {
+  protected:
+    void SetUp() override {
+        if (const std::string reason = GameProcess::missing(); !reason.empty()) GTEST_SKIP() << reason;
+        write_scene(folder_ / "scene.gltf",
+                    {.sun = true, .media = R"([{"shape":"global","scattering":[0.01,0.01,0.01]}])"});
+        game_.emplace(std::vector<std::string>{(folder_ / "scene.gltf").string(), "--size", "448x540", "--set",
+                                               "steps=2", "--set", "temporal=off"});
+    }
+    TemporaryFolder folder_;
+    std::optional<GameProcess> game_;
+};
+
+TEST_F(SmallGame, ControlClickInASlowFrameOpensTheSlidersText) {
+    game_->key("F1");
+    game_->frames(2);
+    const std::vector<std::string> keys = Row::keys(section_of("steps"));
+    const auto place = std::ranges::find(keys, "steps") - keys.begin();
+    game_->move_pointer(
+        Row::x, Row::heading_y(section_of("steps"), "ray_march") + Row::height * (static_cast<int>(place) + 1));
+    game_->frames(2);
+    game_->stop();
+    game_->key_down("ctrl");
+    game_->click();
+    game_->key_up("ctrl");
+    game_->go_on();
+    game_->frames(2);
+    EXPECT_EQ(game_->state().stats.at("settings").at("steps"), 2) << "a plain click would have moved it";
+    for (const char* key : {"5", "Return"}) {
+        game_->key(key);
+        game_->frames(1);
+    }
+    EXPECT_EQ(game_->state().stats.at("settings").at("steps"), 5);
+}
+
+TEST_F(SmallGame, StatisticsThatCannotBeWrittenCostNoPicture) {
+    std::filesystem::remove(game_->folder() / "stats.json");
+    std::filesystem::create_directory(game_->folder() / "stats.json");
+    EXPECT_EQ(game_->picture().size, glm::ivec2(448, 540));
+    game_->key("Escape");
+    EXPECT_EQ(game_->wait_for_exit(), 1);
 }
 
 }  // namespace

@@ -72,6 +72,13 @@ void gate(Level& level, const Lamps& lamps) {
                0.2f);
     for (const float z : {-3.0f, 3.0f})
         beam(m, Mat::Timber, {kGate, y + 11.8f, z}, {kGate, y + 15.9f, z}, 0.3f, 0.3f);
+    // Yard walls, from inside the last houses into the gate's wall: nobody slips out between them.
+    for (const float z : {-5.6f, 5.6f}) {
+        const float from = 98.0f, to = kGate - 0.3f, high = 6.6f;
+        wall(m, Mat::Rubble, {{from, y, z}, {1, 0, 0}, to - from, high, 0.6f, {}});
+        chamfered_box(m, Mat::Trim, {from, y + high - 0.04f, z - 0.4f}, {to - 0.2f, y + high + 0.2f, z + 0.4f},
+                      0.05f);
+    }
     level.add_static(std::move(m));
     for (const float z : {-2.6f, 2.6f}) wall_lantern(level, lamps, {kGate - 0.70f, y + 5.4f, z}, -90.0f, 120.0f);
 }

@@ -1,12 +1,15 @@
 #include "engine/core/files.h"
 
 #include <gmock/gmock.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
-#include <fstream>
+#include <array>
+#include <csignal>
 #include <nlohmann/json.hpp>
 
 #include "engine/core/error.h"
+#include "engine/core/output_files.h"
 
 namespace tyndall {
 namespace {
@@ -60,32 +63,59 @@ TEST_F(Files, JsonErrorHasPathLineAndColumn) {
     EXPECT_EQ(read_json(folder_ / "good.json").at("a").at(1), 2);
 }
 
-TEST_F(Files, FailedWriteLeavesTheOldFileAndNothingElse) {
+TEST_F(Files, SeveralAppearTogether) {
+    OutputFiles files;
+    files.add(folder_ / "a.txt", "new");
+    EXPECT_FALSE(fs::exists(folder_ / "a.txt"));
+    files.add(folder_ / "b.txt", "");
+    files.commit();
+    EXPECT_EQ(read_text(folder_ / "a.txt"), "new");
+    EXPECT_EQ(read_text(folder_ / "b.txt"), "");
+}
+
+TEST_F(Files, OneThatCannotBeWrittenLeavesTheOldOnesAndNothingElse) {
     write_text(folder_ / "out.txt", "old");
     const std::size_t before = entries();
-    EXPECT_THROW(write_atomically(folder_ / "out.txt",
-                                  [](const fs::path& partial) {
-                                      std::ofstream(partial) << "half";
-                                      throw Error("disk on fire");
-                                  }),
-                 Error);
+    {
+        OutputFiles files;
+        files.add(folder_ / "out.txt", "new");
+        EXPECT_THROW(files.add(folder_ / "none/stats.json", "x"), Error);
+    }
     EXPECT_EQ(read_text(folder_ / "out.txt"), "old");
     EXPECT_EQ(entries(), before);
 }
 
-TEST_F(Files, WriterThatWritesNothingIsAnError) {
-    EXPECT_THROW(write_atomically(folder_ / "out.txt", [](const fs::path&) {}), Error);
-    EXPECT_FALSE(fs::exists(folder_ / "out.txt"));
+TEST_F(Files, ASignalWhileWritingLeavesNothing) {
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+        const std::size_t before = entries();
+        const pid_t child = ::fork();
+        if (child == 0) {
+            OutputFiles files;
+            for (const char* name : {"a.png", "a.json", "long_enough_to_be_on_the_heap.json"})
+                files.add(folder_ / name, "x");
+            if (entries() == before + 3) ::raise(signal);
+            ::_exit(0);
+        }
+        int status = 0;
+        ASSERT_EQ(::waitpid(child, &status, 0), child);
+        EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == signal) << status;
+        EXPECT_EQ(entries(), before) << signal;
+    }
 }
 
-TEST_F(Files, PartialFileIsBesideTheTargetWithItsExtension) {
-    write_atomically(folder_ / "out.exr", [&](const fs::path& partial) {
-        EXPECT_EQ(partial.parent_path(), folder_);
-        EXPECT_EQ(partial.extension(), ".exr");
-        EXPECT_NE(partial.filename(), "out.exr");
-        std::ofstream(partial) << "new";
-    });
-    EXPECT_EQ(read_text(folder_ / "out.exr"), "new");
+TEST_F(Files, ASignalThatIsIgnoredStaysSo) {
+    const pid_t child = ::fork();
+    if (child == 0) {
+        ::signal(SIGHUP, SIG_IGN);  // as nohup has it
+        OutputFiles files;
+        files.add(folder_ / "a.txt", "x");
+        ::raise(SIGHUP);
+        files.commit();
+        ::_exit(fs::exists(folder_ / "a.txt") ? 0 : 1);
+    }
+    int status = 0;
+    ASSERT_EQ(::waitpid(child, &status, 0), child);
+    EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << status;
 }
 
 TEST_F(Files, UnwritableTargetsNameThePath) {
@@ -103,6 +133,39 @@ TEST_F(Files, WritingThroughALinkKeepsTheLink) {
     write_text(folder_ / "link.txt", "new");
     EXPECT_TRUE(fs::is_symlink(folder_ / "link.txt"));
     EXPECT_EQ(read_text(folder_ / "real.txt"), "new");
+}
+
+TEST_F(Files, WritingThroughALinkToNothingMakesWhatItLeadsTo) {
+    fs::create_symlink("second.txt", folder_ / "first.txt");
+    fs::create_symlink(folder_ / "scene/real.txt", folder_ / "second.txt");
+    write_text(folder_ / "first.txt", "new");
+    EXPECT_TRUE(fs::is_symlink(folder_ / "first.txt"));
+    EXPECT_TRUE(fs::is_symlink(folder_ / "second.txt"));
+    EXPECT_EQ(read_text(folder_ / "scene/real.txt"), "new");
+    fs::create_symlink("loop.txt", folder_ / "loop.txt");
+    EXPECT_THROW(write_text(folder_ / "loop.txt", "x"), Error);
+    EXPECT_TRUE(fs::is_symlink(folder_ / "loop.txt"));
+    fs::create_symlink(folder_ / "none/real.txt", folder_ / "lost.txt");
+    EXPECT_THAT([&] { write_text(folder_ / "lost.txt", "x"); }, ThrowsMessage<Error>(HasSubstr("lost.txt")));
+}
+
+TEST_F(Files, OutputsAreCheckedBeforeTheWork) {
+    const auto check = [&](const fs::path& a, const fs::path& b) {
+        check_outputs(std::array{NamedFile{"--output", a}, NamedFile{"--stats", b}},
+                      std::array{NamedFile{"SCENE", folder_ / "scene/a.gltf"}});
+    };
+    EXPECT_NO_THROW(check(folder_ / "a.png", folder_ / "a.json"));
+    EXPECT_NO_THROW(check("a.png", "a.json"));
+    EXPECT_THROW(check(folder_ / "a.png", folder_ / "none/a.json"), Error);
+    EXPECT_THROW(check(folder_ / "scene", folder_ / "a.json"), Error);
+    EXPECT_THROW(check("/dev/null", folder_ / "a.json"), Error);
+    for (const fs::path& same : {folder_ / "a.png", folder_ / "scene/../a.png"})
+        EXPECT_THAT([&] { check(folder_ / "a.png", same); },
+                    ThrowsMessage<UsageError>(AllOf(HasSubstr("--stats"), HasSubstr("--output"))));
+    fs::create_symlink("a.png", folder_ / "link.json");
+    EXPECT_THROW(check(folder_ / "a.png", folder_ / "link.json"), UsageError);
+    EXPECT_THAT([&] { check(folder_ / "a.png", folder_ / "scene/a.gltf"); },
+                ThrowsMessage<UsageError>(AllOf(HasSubstr("--stats"), HasSubstr("SCENE"))));
 }
 
 TEST_F(Files, ResolveInsideAcceptsPathsOfTheFolder) {

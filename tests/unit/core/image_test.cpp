@@ -166,6 +166,104 @@ TEST_F(ImageFiles, FlippedBitsInAPngAreFound) {
     }
 }
 
+/// ISO 3309 CRC-32, bit by bit.
+std::uint32_t checksum(const std::string& bytes) {
+    std::uint32_t c = ~0u;
+    for (const char byte : bytes) {
+        c ^= static_cast<std::uint8_t>(byte);
+        for (int bit = 0; bit < 8; ++bit) c = (c >> 1) ^ ((c & 1) != 0 ? 0xEDB88320u : 0u);
+    }
+    return ~c;
+}
+
+std::string big_endian(std::uint32_t value) {
+    std::string bytes;
+    for (int shift = 24; shift >= 0; shift -= 8) bytes += static_cast<char>(value >> shift);
+    return bytes;
+}
+
+std::string png_file(const std::vector<std::pair<std::string, std::string>>& chunks) {
+    std::string file("\x89PNG\r\n\x1a\n");
+    for (const auto& [type, data] : chunks)
+        file +=
+            big_endian(static_cast<std::uint32_t>(data.size())) + type + data + big_endian(checksum(type + data));
+    return file;
+}
+
+std::string header(int width, int height, char bits, char color, char interlace = 0) {
+    return big_endian(static_cast<std::uint32_t>(width)) + big_endian(static_cast<std::uint32_t>(height)) + bits +
+           color + '\0' + '\0' + interlace;
+}
+
+/// A zlib stream of one stored block. RFC 1950, 1951.
+std::string stored(const std::string& data) {
+    std::uint32_t a = 1, b = 0;
+    for (const char byte : data) b = (b + (a = (a + static_cast<std::uint8_t>(byte)) % 65521)) % 65521;
+    const auto size = static_cast<std::uint16_t>(data.size());
+    std::string stream("\x78\x01\x01");
+    for (const std::uint16_t n : {size, static_cast<std::uint16_t>(~size)})
+        stream += std::string{static_cast<char>(n & 0xFF), static_cast<char>(n >> 8)};
+    return stream + data + big_endian(b << 16 | a);
+}
+
+TEST_F(ImageFiles, ADamagedPngIsOneErrorAndNothingOnStderr) {
+    const std::string row("\0\xff", 2), good = stored(row);
+    std::string broken_stream = good;
+    broken_stream[2] = 7;  // there is no such kind of block
+    const std::pair<const char*, std::string> cases[] = {
+        {"zlib data", png_file({{"IHDR", header(1, 1, 8, 0)}, {"IDAT", broken_stream}, {"IEND", ""}})},
+        {"too little data", png_file({{"IHDR", header(1, 9, 8, 0)}, {"IDAT", good}, {"IEND", ""}})},
+        {"three bits", png_file({{"IHDR", header(1, 1, 3, 0)}, {"IDAT", good}, {"IEND", ""}})},
+        {"no width", png_file({{"IHDR", header(0, 1, 8, 0)}, {"IDAT", good}, {"IEND", ""}})},
+        {"no palette", png_file({{"IHDR", header(1, 1, 8, 3)}, {"IDAT", good}, {"IEND", ""}})},
+        {"no pixels", png_file({{"IHDR", header(1, 1, 8, 0)}, {"IEND", ""}})},
+        {"unknown critical chunk",
+         png_file({{"IHDR", header(1, 1, 8, 0)}, {"ABCD", "x"}, {"IDAT", good}, {"IEND", ""}})},
+        {"no end", png_file({{"IHDR", header(1, 1, 8, 0)}, {"IDAT", good}})}};
+    for (const auto& [what, file] : cases) {
+        write_text(folder_ / "a.png", file);
+        testing::internal::CaptureStderr();
+        EXPECT_THAT(
+            [&] { (void)read_image(folder_ / "a.png"); },
+            ThrowsMessage<Error>(AllOf(HasSubstr("a.png: cannot read the picture: "), Not(HasSubstr("\n")))))
+            << what;
+        EXPECT_EQ(testing::internal::GetCapturedStderr(), "") << what;
+    }
+}
+
+TEST_F(ImageFiles, PngOfEveryKindGivesItsValues) {
+    const auto read = [&](const std::vector<std::pair<std::string, std::string>>& chunks) {
+        write_text(folder_ / "a.png", png_file(chunks));
+        testing::internal::CaptureStderr();
+        const Image image = read_image(folder_ / "a.png");
+        EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+        return image.pixels;
+    };
+    const auto close = [](std::vector<float> values) { return Pointwise(FloatEq(), values); };
+    const std::string end;
+    // 16 bits, big endian: 0x1234 of 65535.
+    EXPECT_THAT(
+        read({{"IHDR", header(1, 1, 16, 0)}, {"IDAT", stored(std::string("\0\x12\x34", 3))}, {"IEND", end}}),
+        close({4660.0f / 65535}));
+    // 2 bits: 0 1 2 3 of 3.
+    EXPECT_THAT(read({{"IHDR", header(4, 1, 2, 0)}, {"IDAT", stored(std::string("\0\x1b", 2))}, {"IEND", end}}),
+                close({0, 1.0f / 3, 2.0f / 3, 1}));
+    // A palette of two colours, the first half transparent.
+    EXPECT_THAT(read({{"IHDR", header(2, 1, 8, 3)},
+                      {"PLTE", "\xff\x33" + std::string("\0\0\xff\0", 4)},
+                      {"tRNS", "\x66"},
+                      {"IDAT", stored(std::string("\0\0\1", 3))},
+                      {"IEND", end}}),
+                close({1, 0.2f, 0, 0.4f, 0, 1, 0, 1}));
+    // gAMA and a damaged text chunk change nothing and say nothing.
+    EXPECT_THAT(read({{"IHDR", header(1, 1, 8, 0)},
+                      {"gAMA", big_endian(100000)},
+                      {"tEXt", ""},
+                      {"IDAT", stored(std::string("\0\x33", 2))},
+                      {"IEND", end}}),
+                close({0.2f}));
+}
+
 TEST_F(ImageFiles, ReadsTheOtherFormats) {
     // A 1 x 1 Radiance picture, uncompressed RGBE: mantissas 128, 64, 32 and exponent 129 are 1, 0.5 and 0.25.
     const std::string hdr("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n\x80\x40\x20\x81");

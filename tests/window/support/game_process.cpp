@@ -112,11 +112,23 @@ void GameProcess::click() {
     xdotool("click 1");
 }
 
-GameProcess::State GameProcess::state() {
+void GameProcess::stop() {
+    kill(pid_, SIGSTOP);
+}
+void GameProcess::go_on() {
+    kill(pid_, SIGCONT);
+}
+
+Image GameProcess::picture() {
     key("F2");
     const std::filesystem::path picture = folder_ / fmt::format("tyndall-{:03}.png", ++pictures_);
     wait_until([&] { return !running() || std::filesystem::exists(picture); }, "picture after F2", 25);
-    return {stats(), read_image(picture)};
+    return read_image(picture);
+}
+
+GameProcess::State GameProcess::state() {
+    const Image seen = picture();
+    return {stats(), seen};
 }
 
 GameProcess::State GameProcess::state_when(const std::function<bool(const State&)>& done, const std::string& what,

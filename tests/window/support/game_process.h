@@ -33,6 +33,10 @@ class GameProcess {
     void move_pointer(int x, int y);    ///< pixels of the window from the top left
     void turn_pointer(int dx, int dy);  ///< relative, by a hand's small steps
     void click();
+    /// While it is stopped, what is sent waits for the one poll after it goes on: a slow frame.
+    void stop();
+    void go_on();
+    [[nodiscard]] std::filesystem::path folder() const { return folder_.path(); }  ///< where it runs
 
     struct State {
         nlohmann::json stats;
@@ -40,6 +44,7 @@ class GameProcess {
     };
     /// Presses F2 and waits for the picture and the statistics.
     State state();
+    Image picture();  ///< presses F2 and waits for the picture
     /// Asks again and again until `done` holds.
     State state_when(const std::function<bool(const State&)>& done, const std::string& what, int seconds = 25);
     /// Waits a few frames: what was sent has arrived.
