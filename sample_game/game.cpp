@@ -229,7 +229,7 @@ std::string technique_after(const std::string& current) {
     auto next = std::ranges::find(names, current);
     do {
         next = next == names.end() || next + 1 == names.end() ? names.begin() : next + 1;
-    } while (*next == "reference");
+    } while (!volumetrics::technique(*next).traits.interactive);
     return *next;
 }
 

@@ -26,13 +26,6 @@ glm::vec3 point(const std::vector<double>& xyz) {
     return glm::vec3(glm::dvec3(xyz[0], xyz[1], xyz[2]));
 }
 
-bool is_finite(const glm::mat4& m) {
-    for (int column = 0; column < 4; ++column)
-        for (int row = 0; row < 4; ++row)
-            if (!std::isfinite(m[column][row])) return false;
-    return true;
-}
-
 }  // namespace
 
 void SceneOptions::add_to(CLI::App& command, const std::string& default_scene, const std::string& default_size) {

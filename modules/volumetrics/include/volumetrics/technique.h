@@ -20,6 +20,7 @@ struct TechniqueTraits {
     bool local_media = true;           ///< sees local media; else only those that fill space
     bool unseen_local_media = false;   ///< wants them also where only light on its way passes through them
     bool needs_global_medium = false;  ///< adds nothing without one
+    bool interactive = true;           ///< else a frame may take minutes: nobody should come to it by chance
 };
 
 /// A technique: one row of techniques(), one file of src/techniques.

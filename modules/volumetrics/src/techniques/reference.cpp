@@ -118,7 +118,7 @@ TechniqueDesc reference() {
             .help = "Brute force over the engine's shadow maps: slow, and what the others are measured against.",
             .settings = "reference_",
             .passes = {"volumetrics/reference"},
-            .traits = {.unseen_local_media = true},
+            .traits = {.unseen_local_media = true, .interactive = false},
             .add = add};
 }
 

@@ -21,7 +21,7 @@ struct Techniques {
     }
 };
 
-/// Off, and the order of the key V and of `tyndall list techniques`.
+/// Off, and the order of the game's key V and of `tyndall list techniques`.
 Techniques& techniques() {
     static Techniques list = [] {
         Techniques own;
