@@ -130,11 +130,12 @@ TEST_F(RendererTest, MediaBringTheirPassesAndOnlyTheirs) {
     medium(Medium::Shape::global);
     draw();
     EXPECT_TRUE(runs("volumetrics/march"));
-    EXPECT_FALSE(runs("volumetrics/inject_media"));
+    EXPECT_FALSE(runs("volumetrics/noise_volume"));
     EXPECT_FALSE(runs("cluster"));
     medium(Medium::Shape::sphere);
+    builder_.scene.media.back().noise_scale = builder_.scene.media.back().noise_amount = 1;
     draw();
-    EXPECT_TRUE(runs("volumetrics/inject_media"));
+    EXPECT_TRUE(runs("volumetrics/noise_volume"));
 }
 
 TEST_F(RendererTest, NoMediumIsBitIdenticalToVolumetricsOff) {

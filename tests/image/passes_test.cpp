@@ -59,9 +59,9 @@ class Passes : public ::testing::Test {
     TemporaryFolder folder_;
 };
 
-const std::vector<std::string> all_but_injection{"volumetrics/march",           "volumetrics/filter_horizontal",
-                                                 "volumetrics/filter_vertical", "volumetrics/relight",
-                                                 "volumetrics/temporal",        "volumetrics/composite"};
+const std::vector<std::string> of_a_global_medium{"volumetrics/march",           "volumetrics/filter_horizontal",
+                                                  "volumetrics/filter_vertical", "volumetrics/relight",
+                                                  "volumetrics/temporal",        "volumetrics/composite"};
 
 TEST_F(Passes, NoMediumIsBitIdenticalToVolumetricsOff) {
     const SceneSpec spec{.sun = true, .lamps = {lamp}};
@@ -88,7 +88,7 @@ TEST_F(Passes, SkippedPassesSayWhy) {
 
 TEST_F(Passes, SunOnlyNeedsNoClustersAndNoAtlas) {
     const Frame frame = draw({.sun = true, .media = global_medium});
-    EXPECT_THAT(with_prefix(frame, "volumetrics/"), UnorderedElementsAreArray(all_but_injection));
+    EXPECT_THAT(with_prefix(frame, "volumetrics/"), UnorderedElementsAreArray(of_a_global_medium));
     EXPECT_TRUE(runs(frame, "shadow_sun"));
     for (const char* absent : {"depth_pyramid", "light_cull", "cluster", "shadow_atlas"})
         EXPECT_FALSE(runs(frame, absent)) << absent;
@@ -97,7 +97,7 @@ TEST_F(Passes, SunOnlyNeedsNoClustersAndNoAtlas) {
 
 TEST_F(Passes, LampOnlyNeedsNoSunShadows) {
     const Frame frame = draw({.lamps = {lamp}, .media = global_medium});
-    EXPECT_THAT(with_prefix(frame, "volumetrics/"), UnorderedElementsAreArray(all_but_injection));
+    EXPECT_THAT(with_prefix(frame, "volumetrics/"), UnorderedElementsAreArray(of_a_global_medium));
     EXPECT_FALSE(runs(frame, "shadow_sun"));
     for (const char* present : {"cluster", "shadow_atlas"}) EXPECT_TRUE(runs(frame, present)) << present;
 }
@@ -108,8 +108,8 @@ TEST_F(Passes, LampBehindTheCameraCostsNothing) {
         EXPECT_FALSE(runs(frame, absent)) << absent;
 }
 
-TEST_F(Passes, LocalMediumIsInjectedOnlyInView) {
-    EXPECT_TRUE(runs(draw({.sun = true, .media = local_medium}), "volumetrics/inject_media"));
+TEST_F(Passes, LocalMediumIsMarchedOnlyInView) {
+    EXPECT_TRUE(runs(draw({.sun = true, .media = local_medium}), "volumetrics/march"));
     // Behind the eye it may still stand between the sun and what is seen.
     const Frame behind = draw({.sun = true, .media = local_medium_behind});
     EXPECT_THAT(with_prefix(behind, "volumetrics/"), UnorderedElementsAreArray({"volumetrics/sun_volume"}));

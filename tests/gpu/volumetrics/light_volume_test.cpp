@@ -229,6 +229,7 @@ TEST_F(VolumetricsLightVolume, MediumOutOfViewDimsWhatIsInView) {
         const Frame frame = host.render(s);
         EXPECT_THAT(frame.live_passes, Contains(sun_pass));
         EXPECT_THAT(frame.live_passes, Not(Contains("volumetrics/inject_media")));
+        EXPECT_THAT(frame.live_passes, Not(Contains("volumetrics/noise_volume")));
         EXPECT_NEAR(frame.scattering.at(0, 0)[0] / open, std::exp(-1), 5e-3);
         s.light.transmittance = false;
         EXPECT_NEAR(host.render(s).scattering.at(0, 0)[0] / open, 1, 1e-3);
