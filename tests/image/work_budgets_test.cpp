@@ -100,7 +100,7 @@ const std::string thin = R"({"shape":"global","scattering":[0.01,0.01,0.01],"abs
 const std::string colored = R"({"shape":"global","scattering":[0.01,0.01,0.01],"absorption":[0.01,0.02,0.03]})";
 const std::string opaque = R"({"shape":"global","scattering":[9,9,9],"absorption":[0,0,0]})";
 const std::string everywhere =
-    R"({"shape":"box","center":[0,0,0],"size":[2000,2000,2000],"scattering":[0.01,0.01,0.01],"absorption":[0,0,0]})";
+    R"({"shape":"box","center":[0,0,0],"size":[2000,2000,2000],"scattering":[0.005,0.005,0.005],"absorption":[0,0,0]})";
 
 /// Straight down on the floor from 10 m: every pixel shows it, and every point of air is in the sun's maps.
 const std::vector<std::string> on_the_floor{"--eye", "0,10,0", "--look", "0.01,0,0"};
