@@ -116,7 +116,8 @@ TEST_F(VolumetricsFroxelRange, AutoSlicesABoxOfFog) {
             EXPECT_NEAR(frame.scattering.at(x, 0)[0], -std::expm1(-0.1 * length), 0.1 * slice)
                 << depth(x) << " m, " << slices << " slices";
         }
-        EXPECT_EQ(frame.scattering.at(60, 0)[0], 0) << "18.2 m";
+        // The first slice begins at the eye, and may reach a little into the box.
+        EXPECT_LT(frame.scattering.at(60, 0)[0], 0.02 * slice) << "18.2 m";
     }
 }
 
