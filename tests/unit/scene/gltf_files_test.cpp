@@ -80,7 +80,8 @@ TEST_F(GltfFiles, AccessorsWithoutAViewAreZeros) {
     GltfBuilder b;
     const int empty = b.append("accessors", {{"componentType", 5126}, {"type", "VEC2"}, {"count", 3}});
     b.triangle()["attributes"]["TEXCOORD_0"] = empty;
-    for (const Vertex& v : load(b).meshes.at(0).vertices) EXPECT_EQ(v.uv, glm::vec2(0));
+    const Scene scene = load(b);
+    for (const Vertex& v : scene.meshes.at(0).vertices) EXPECT_EQ(v.uv, glm::vec2(0));
     b.doc["accessors"][static_cast<std::size_t>(empty)]["count"] = std::uint64_t(1) << 40;
     expect_error(b, "and no buffer view");
 }
