@@ -94,7 +94,8 @@ TEST_F(GltfFiles, VertexColoursOfEveryForm) {
         primitive = b.doc["meshes"][0]["primitives"][0];
         b.doc["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"] = accessor;
         std::vector<glm::vec4> out;
-        for (const Vertex& v : load_heard(b).meshes.at(0).vertices) out.push_back(v.color);
+        const Scene scene = load_heard(b);
+        for (const Vertex& v : scene.meshes.at(0).vertices) out.push_back(v.color);
         return out;
     };
     const auto normalised = [](GltfBuilder& b, int accessor) {
