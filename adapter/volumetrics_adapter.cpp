@@ -35,24 +35,6 @@ volumetrics::Shape shape_of(const Medium& bounded) {
     throw Error(fmt::format("{} medium: a bounded one expected", name_of(bounded.shape)));
 }
 
-volumetrics::LocalMedium local_medium(const Medium& m) {
-    return {.shape = shape_of(m),
-            .center = m.center,
-            .half_extent = m.half_extent,
-            .rotation = m.rotation,
-            .softness = m.softness,
-            .sigma_s = m.sigma_s,
-            .sigma_a = m.sigma_a,
-            .anisotropy = m.anisotropy,
-            .emission = m.emission,
-            .noise_scale = m.noise_scale,
-            .noise_amount = m.noise_amount,
-            .noise_seed = m.noise_seed,
-            .height = m.height_profile,
-            .base = m.base,
-            .falloff = m.falloff};
-}
-
 volumetrics::Inputs view_inputs(const FrameContext& frame) {
     volumetrics::Inputs inputs;
     inputs.view = frame.view.view;
@@ -97,6 +79,24 @@ void add_lights(volumetrics::Inputs& inputs, const FrameContext& frame, const Li
 }
 
 }  // namespace
+
+volumetrics::LocalMedium local_medium(const Medium& bounded) {
+    return {.shape = shape_of(bounded),
+            .center = bounded.center,
+            .half_extent = bounded.half_extent,
+            .rotation = bounded.rotation,
+            .softness = bounded.softness,
+            .sigma_s = bounded.sigma_s,
+            .sigma_a = bounded.sigma_a,
+            .anisotropy = bounded.anisotropy,
+            .emission = bounded.emission,
+            .noise_scale = bounded.noise_scale,
+            .noise_amount = bounded.noise_amount,
+            .noise_seed = bounded.noise_seed,
+            .height = bounded.height_profile,
+            .base = bounded.base,
+            .falloff = bounded.falloff};
+}
 
 bool VolumetricsAdapter::wants_motion(const FrameContext& frame) const {
     return frame.facts.has_medium() && volumetrics::reads_motion(settings);

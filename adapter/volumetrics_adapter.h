@@ -1,9 +1,13 @@
 #pragma once
 
 #include "engine/render/frame_module.h"
+#include "engine/scene/medium.h"
 #include "volumetrics/volumetrics.h"
 
 namespace tyndall {
+
+/// In the module's terms. Throws Error for a medium that fills space.
+[[nodiscard]] volumetrics::LocalMedium local_medium(const Medium& bounded);
 
 /// The volumetrics module in a renderer's slot: translates the frame into the module's terms and its results back.
 /// A GL context must be current on destruction if there was a frame.

@@ -47,7 +47,7 @@ vec3 slab_optical_depth(vec3 from, vec3 direction, float path_length) {
                 density += local_density(medium, from + direction * t) / float(SAMPLES);
             }
         }
-        depth += (medium.sigma_s_g.rgb + medium.sigma_a_shape.rgb) * (density * (inside.y - inside.x));
+        depth += local_sigma_t(medium) * (density * (inside.y - inside.x));
     }
     return depth;
 }

@@ -92,25 +92,21 @@ void add_medium(LocalMedium medium, Ray ray, float begin, float end, vec2 part, 
     m.optical_depth += local_sigma_t(medium) * (density * (part.y - part.x));
 }
 
-// Adds the local media, in the mean over [begin, end]; returns whether there were any.
-bool add_local_media(Ray ray, float begin, float end, inout Medium m) {
-    bool any = false;
+// Adds the local media, in the mean over [begin, end].
+void add_local_media(Ray ray, float begin, float end, inout Medium m) {
     float noise = -1.0;
     for (int i = 0; i < chord_count; ++i) {
         vec2 part = vec2(max(chord_span[i].x, begin), min(chord_span[i].y, end));
         if (part.x >= part.y) continue;
         if (noise < 0.0) noise = noise_over(ray, begin, end);
         add_medium(local_media[chord_medium[i]], ray, begin, end, part, noise, m);
-        any = true;
     }
     for (uint i = chords_left; i < volumetrics.local_media_count; ++i) {
         vec2 part = inside_shape(local_media[i], ray.origin, ray.direction, begin, end);
         if (part.x >= part.y) continue;
         if (noise < 0.0) noise = noise_over(ray, begin, end);
         add_medium(local_media[i], ray, begin, end, part, noise, m);
-        any = true;
     }
-    return any;
 }
 
 // Optical depth of the local media between two distances along a ray; of `find_chords` it needs nothing.

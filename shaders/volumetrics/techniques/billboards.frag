@@ -53,7 +53,7 @@ Medium sheet_medium(Ray ray, vec2 part, vec3 point) {
         m.sigma_s = local.sigma_s_g.rgb * density;
         m.anisotropy = local.sigma_s_g.w;
         m.emission = local.emission_noise.rgb * density;
-        m.optical_depth = (local.sigma_s_g.rgb + local.sigma_a_shape.rgb) * (density * path_length);
+        m.optical_depth = local_sigma_t(local) * (density * path_length);
         m.sigma_s_rayleigh = vec3(0.0);
         return m;
     }

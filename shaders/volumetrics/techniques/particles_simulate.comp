@@ -94,7 +94,7 @@ Medium particle_medium(vec3 point) {
     m.sigma_s = local.sigma_s_g.rgb * density;
     m.anisotropy = local.sigma_s_g.w;
     m.emission = local.emission_noise.rgb * density;
-    m.optical_depth = (local.sigma_s_g.rgb + local.sigma_a_shape.rgb) * density;  // of one metre
+    m.optical_depth = local_sigma_t(local) * density;  // of one metre
     m.sigma_s_rayleigh = vec3(0.0);
     return m;
 }

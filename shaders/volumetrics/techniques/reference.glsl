@@ -116,7 +116,7 @@ void add_local_media(Ray ray, float a, float b, MediaMask mask, inout Medium m) 
             vec3 sigma_s = medium.sigma_s_g.rgb * (density_length / (b - a));
             add_particles(sigma_s, medium.sigma_s_g.w * mean_channel(sigma_s), m);
             m.emission += medium.emission_noise.rgb * (density_length / (b - a));
-            m.optical_depth += (medium.sigma_s_g.rgb + medium.sigma_a_shape.rgb) * density_length;
+            m.optical_depth += local_sigma_t(medium) * density_length;
         }
     }
 #endif
@@ -144,7 +144,7 @@ vec3 local_optical_depth(vec3 point, vec3 direction, float path_length, MediaMas
                 density /= float(light_steps);
                 work += light_steps * (1 + MEDIA_NOISE_OCTAVES);
             }
-            depth += (medium.sigma_s_g.rgb + medium.sigma_a_shape.rgb) * (density * (inside.y - inside.x));
+            depth += local_sigma_t(medium) * (density * (inside.y - inside.x));
         }
     }
 #endif

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <iostream>
 
-#include "engine/scene/medium.h"
+#include "adapter/volumetrics_adapter.h"
 #include "reference/media_shape.h"
 #include "tests/gpu/support/gl_test.h"
 #include "tests/gpu/support/volumetrics_host.h"
@@ -46,13 +46,7 @@ class VolumetricsLitMedia : public GlTest {
         medium.sigma_s = glm::vec3(sigma_s);
         medium.sigma_a = glm::vec3(0.1F * sigma_s);
         medium.anisotropy = 0.4F;
-        host.local = {{.shape = shape == Medium::Shape::box ? Shape::box : Shape::ellipsoid,
-                       .center = medium.center,
-                       .half_extent = medium.half_extent,
-                       .softness = softness,
-                       .sigma_s = medium.sigma_s,
-                       .sigma_a = medium.sigma_a,
-                       .anisotropy = medium.anisotropy}};
+        host.local = {local_medium(medium)};
     }
 
     [[nodiscard]] double optical_depth(glm::dvec3 from, glm::dvec3 to) const {

@@ -7,7 +7,7 @@
 #include <glm/gtc/constants.hpp>
 #include <iostream>
 
-#include "engine/scene/medium.h"
+#include "adapter/volumetrics_adapter.h"
 #include "reference/media_shape.h"
 #include "tests/gpu/support/gl_test.h"
 #include "tests/gpu/support/volumetrics_host.h"
@@ -20,22 +20,6 @@ struct Case {
     Medium medium;
     std::string name;
 };
-
-LocalMedium local(const Medium& m) {
-    return {.shape = m.shape == Medium::Shape::box ? Shape::box : Shape::ellipsoid,
-            .center = m.center,
-            .half_extent = m.half_extent,
-            .rotation = m.rotation,
-            .softness = m.softness,
-            .sigma_s = m.sigma_s,
-            .sigma_a = m.sigma_a,
-            .noise_scale = m.noise_scale,
-            .noise_amount = m.noise_amount,
-            .noise_seed = m.noise_seed,
-            .height = m.height_profile,
-            .base = m.base,
-            .falloff = m.falloff};
-}
 
 /// A medium of an optical depth of 1 along the view axis, its rim `distance` in front of the eye, or the eye so far
 /// inside.
@@ -90,7 +74,7 @@ class VolumetricsOpticalDepth : public GlTest {
 
     /// Greatest error of a pixel, relative to its optical depth, or to 0.05 where that is less.
     double worst_error(const Medium& medium, const Settings& settings, double view_depth) {
-        host.local = {local(medium)};
+        host.local = {local_medium(medium)};
         const Frame frame = host.render(settings);
         double worst = 0;
         for (int y = 0; y < host.size.y; ++y)

@@ -19,8 +19,12 @@ struct Resources {
     LightVolumes light_volumes;
     NoiseSource noise;
     TemporalHistory temporal;
-    std::optional<FroxelMedia> froxel_media;  ///< of this frame, once a pass asked for it
-    std::optional<TextureRef> noise_volume;   ///< likewise
+    /// Textures of this frame, once a pass asked for them.
+    struct ThisFrame {
+        TextureRef froxel_columns;
+        std::optional<FroxelMedia> froxel_media;
+        std::optional<TextureRef> noise_volume;
+    } this_frame;
 
     void upload(const Settings& settings, const FrameMedia& media);
     /// No medium is in view: frees all but the samplers.

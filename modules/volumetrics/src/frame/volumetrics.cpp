@@ -41,8 +41,7 @@ struct Volumetrics::Impl {
 
     Outputs add_technique(PassList& passes, const Inputs& inputs, const Settings& settings,
                           const TechniqueDesc& desc) {
-        resources.froxel_media.reset();
-        resources.noise_volume.reset();
+        resources.this_frame = {};
         Frame frame{passes, shaders, inputs, settings, media, resources, kept, inputs.size, inputs.depth};
         Outputs outputs;
         if (desc.traits.needs_global_medium && !media.has_global) {

@@ -1,3 +1,4 @@
+#include "frame/resources.h"
 #include "media/froxel_media.h"
 #include "volumetrics/frame.h"
 
@@ -13,9 +14,11 @@ const ProgramRegistry::Registration registration(program);
 
 }  // namespace
 
-TextureRef add_froxel_columns(Frame& frame) {
+TextureRef froxel_columns(Frame& frame) {
+    TextureRef& columns = frame.resources.this_frame.froxel_columns;
+    if (columns) return columns;
     const glm::ivec2 count{frame.settings.froxels.x, frame.settings.froxels.y};
-    TextureRef columns = frame.passes.create("volumetrics/froxel_columns", {.format = GL_R32F, .size = {count, 1}});
+    columns = frame.passes.create("volumetrics/froxel_columns", {.format = GL_R32F, .size = {count, 1}});
     frame.add({.name = "volumetrics/froxel_columns",
                .program = frame.program(program),
                .sources = {{frame.inputs.depth}},

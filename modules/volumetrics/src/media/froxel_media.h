@@ -9,14 +9,13 @@ class Frame;
 /// Froxel volumes of the local media in view: RGBA16F 3D textures, see shaders/volumetrics/media/inject_media.comp.
 /// All empty without any.
 struct FroxelMedia {
-    /// Farthest view depth [m] seen through each column, see froxel_columns.frag: nothing is injected behind it.
-    TextureRef columns;
     TextureRef scattering, extinction, emission;  ///< emission only where some local medium emits
 };
 
 /// This frame's: the first call adds the passes.
 [[nodiscard]] const FroxelMedia& froxel_media(Frame& frame);
-/// R32F, of the froxels' width and height.
-[[nodiscard]] TextureRef add_froxel_columns(Frame& frame);
+/// Likewise: the farthest view depth [m] seen through each column, behind which no froxel is filled. R32F, see
+/// shaders/volumetrics/media/froxel_columns.frag.
+[[nodiscard]] TextureRef froxel_columns(Frame& frame);
 
 }  // namespace tyndall::volumetrics

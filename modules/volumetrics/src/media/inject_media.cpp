@@ -21,7 +21,6 @@ FroxelMedia add_inject_media(Frame& frame) {
                                .format = GL_RGBA16F,
                                .size = {settings.froxels.x, settings.froxels.y, settings.froxels.z}};
     FroxelMedia froxels;
-    froxels.columns = add_froxel_columns(frame);
     froxels.scattering = frame.passes.create("volumetrics/froxel_scattering", desc);
     froxels.extinction = frame.passes.create("volumetrics/froxel_extinction", desc);
     if (frame.media.local_emission) froxels.emission = frame.passes.create("volumetrics/froxel_emission", desc);
@@ -33,7 +32,7 @@ FroxelMedia add_inject_media(Frame& frame) {
     frame.add(
         {.name = "volumetrics/inject_media",
          .program = frame.program(program, {{"EMISSION", frame.media.local_emission}}),
-         .sources = {{froxels.columns}},
+         .sources = {{froxel_columns(frame)}},
          .images = {{&froxels.scattering}, {&froxels.extinction}, {&froxels.emission}},
          .local_media = true,
          .set =
@@ -50,7 +49,7 @@ FroxelMedia add_inject_media(Frame& frame) {
 }  // namespace
 
 const FroxelMedia& froxel_media(Frame& frame) {
-    std::optional<FroxelMedia>& froxels = frame.resources.froxel_media;
+    std::optional<FroxelMedia>& froxels = frame.resources.this_frame.froxel_media;
     if (!froxels && frame.media.local.empty()) {
         froxels.emplace();
         frame.skip("volumetrics/inject_media", "no local medium in view");

@@ -19,12 +19,11 @@ TextureRef add_noise_volume(Frame& frame) {
         return {};
     }
     const glm::ivec3 size{frame.settings.froxels.x, frame.settings.froxels.y, frame.settings.froxels.z + 1};
-    const TextureRef columns = add_froxel_columns(frame);
     TextureRef sums = frame.passes.create("volumetrics/noise_volume",
                                           {.kind = gl::TextureKind::d3, .format = GL_RG32F, .size = size});
     frame.add({.name = "volumetrics/noise_volume",
                .program = frame.program(program),
-               .sources = {{columns}},
+               .sources = {{froxel_columns(frame)}},
                .images = {{&sums}},
                .local_media = true,
                .set =
@@ -38,7 +37,7 @@ TextureRef add_noise_volume(Frame& frame) {
 }  // namespace
 
 TextureRef noise_volume(Frame& frame) {
-    std::optional<TextureRef>& sums = frame.resources.noise_volume;
+    std::optional<TextureRef>& sums = frame.resources.this_frame.noise_volume;
     if (!sums) sums = add_noise_volume(frame);
     return *sums;
 }

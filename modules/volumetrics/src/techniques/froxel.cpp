@@ -39,7 +39,7 @@ Estimate add(Frame& frame) {
 
 Fog add_froxel_fog(Frame& frame, FroxelHistory* history) {
     const FroxelMedia& media = froxel_media(frame);
-    const TextureRef columns = media.columns ? media.columns : add_froxel_columns(frame);
+    const TextureRef columns = froxel_columns(frame);
     if (history != nullptr) history->begin_frame(frame.inputs, frame.settings, frame.media);
     const FroxelLight light = add_froxel_light(frame, media, columns, history);
     TextureRef radiance = light.radiance;

@@ -8,7 +8,7 @@ namespace tyndall::volumetrics {
 class FroxelHistory;
 
 // The steps of froxel_fog.h, see the shaders of the same names. All textures are RGBA16F volumes of the froxels'
-// size; `columns` is that of FroxelMedia.
+// size; `columns`: froxel_columns().
 
 /// Without a history only `radiance`.
 struct FroxelLight {
