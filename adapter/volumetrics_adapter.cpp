@@ -51,10 +51,13 @@ volumetrics::Inputs view_inputs(const FrameContext& frame) {
 /// Local media out of view are given too: they may dim the light of what is in view.
 void add_media(volumetrics::Inputs& inputs, const FrameContext& frame) {
     for (const Medium& medium : frame.scene.media) {
-        if (is_bounded(medium))
+        if (is_bounded(medium)) {
             inputs.local.push_back(local_medium(medium));
-        else if (frame.facts.has_global_medium)
+            inputs.local.back().emission /= frame.scene.light_unit();
+        } else if (frame.facts.has_global_medium) {
             inputs.global.push_back(global_medium(medium));
+            inputs.global.back().emission /= frame.scene.light_unit();
+        }
     }
 }
 
@@ -144,7 +147,7 @@ TextureRef VolumetricsAdapter::add_display(FrameContext& frame, TextureRef displ
 
 std::vector<Layer> VolumetricsAdapter::layers() const {
     const bool in_alpha = !outputs_.transmittance;
-    return {{.name = "scattering", .texture = outputs_.scattering},
+    return {{.name = "scattering", .texture = outputs_.scattering, .is_light = true},
             {.name = "transmittance",
              .texture = in_alpha ? outputs_.scattering : outputs_.transmittance,
              .decode = in_alpha ? Layer::alpha : Layer::rgb,

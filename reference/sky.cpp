@@ -36,7 +36,8 @@ std::array<LobeSample, 256> lobe_samples() {
 
 }  // namespace
 
-Sky::Sky(const Scene& scene, double factor) : factor_(factor) {
+Sky::Sky(const Scene& scene, double factor)
+    : factor_(factor), brightest_(glsl::SKY_BRIGHTEST * scene.light_unit()) {
     const auto index = scene.sun();
     if (index) {
         const Light& sun = scene.lights[*index];
@@ -54,7 +55,7 @@ dvec3 Sky::background(dvec3 unit_direction) const {
     const auto lux = static_cast<float>(glm::dot(illuminance_, luminance));
     const glm::vec3 radiance = glsl::sky_clouded(glsl::sky_radiance(d, to_sun, lux), d, to_sun, lux) +
                                glsl::sky_sun_disc(d, to_sun, glm::vec3(illuminance_), disc_edge);
-    return glm::min(radiance, glm::vec3(glsl::SKY_BRIGHTEST));
+    return glm::min(radiance, glm::vec3(brightest_));
 }
 
 dvec3 Sky::mean_radiance() const {

@@ -11,7 +11,8 @@ VertexArray::VertexArray(const std::string& label) {
     gl::label(GL_VERTEX_ARRAY, id, label);
 }
 
-void VertexArray::vertex_buffer(GLuint binding, GLuint buffer, GLintptr offset, GLsizei stride, GLuint divisor) {
+void VertexArray::vertex_buffer(GLuint binding, GLuint buffer, GLintptr offset, GLsizei stride,
+                                GLuint divisor) const {
     glVertexArrayVertexBuffer(id(), binding, buffer, offset, stride);
     glVertexArrayBindingDivisor(id(), binding, divisor);
 }

@@ -13,7 +13,7 @@ class VertexArray {
     [[nodiscard]] GLuint id() const { return handle_.id(); }
 
     /// `binding` gets `buffer` with `stride`; instance data has divisor 1.
-    void vertex_buffer(GLuint binding, GLuint buffer, GLintptr offset, GLsizei stride, GLuint divisor = 0);
+    void vertex_buffer(GLuint binding, GLuint buffer, GLintptr offset, GLsizei stride, GLuint divisor = 0) const;
     void attribute(GLuint index, GLuint binding, GLint components, GLenum type, GLuint relative_offset);
     void integer_attribute(GLuint index, GLuint binding, GLint components, GLenum type, GLuint relative_offset);
     void index_buffer(GLuint buffer);

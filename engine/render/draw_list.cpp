@@ -3,8 +3,6 @@
 #include <array>
 #include <cstdint>
 
-#include "shaders/shared/bindings.h"
-
 namespace tyndall {
 namespace {
 
@@ -75,7 +73,7 @@ void DrawList::build(const GpuScene& scene, const Frustum& frustum, Filter filte
 void DrawList::build(const GpuScene& scene, std::span<const Frustum> frusta, Filter filter) {
     const Boxes boxes(scene, filter);
     std::vector<DrawElementsIndirectCommand> commands;
-    std::vector<std::uint32_t> visible;
+    std::vector<GpuScene::DrawnInstance> drawn;
     std::vector<float> depth;
     views_.clear();
     for (const Frustum& frustum : frusta) {
@@ -91,25 +89,24 @@ void DrawList::build(const GpuScene& scene, std::span<const Frustum> frusta, Fil
             if (new_batch) view.batches.push_back({surfaces, static_cast<std::uint32_t>(commands.size()), 0});
             if (new_batch || instance.mesh != last_mesh) {
                 commands.push_back({range.index_count, 0, range.first_index, range.base_vertex,
-                                    static_cast<std::uint32_t>(visible.size())});
+                                    static_cast<std::uint32_t>(drawn.size())});
                 ++view.batches.back().command_count;
                 last_mesh = instance.mesh;
             }
             ++commands.back().instance_count;
-            visible.push_back(boxes.instance[i]);
+            drawn.push_back(scene.drawn(boxes.instance[i]));
             ++view.instances;
             view.triangles += range.index_count / 3;
         }
     }
     commands_.assign(std::span<const DrawElementsIndirectCommand>(commands), "draw commands");
-    visible_.assign(std::span<const std::uint32_t>(visible), "visible instances");
+    drawn_.assign(std::span<const GpuScene::DrawnInstance>(drawn), "drawn instances");
 }
 
 void DrawList::draw(const GpuScene& scene, const std::function<bool(Surfaces)>& bind, int view) const {
     const ViewBatches& batches = views_.at(static_cast<std::size_t>(view));
     if (batches.batches.empty()) return;
-    scene.bind();
-    visible_.bind(GL_SHADER_STORAGE_BUFFER, BINDING_VISIBLE_INSTANCES);
+    scene.bind(drawn_);
     glBindBuffer(GL_DRAW_INDIRECT_BUFFER, commands_.id());
     for (const Batch& batch : batches.batches) {
         if (!bind(batch.surfaces)) continue;

@@ -11,8 +11,7 @@ namespace tyndall {
 
 /// Indirect draws of the instances that meet a frustum: one multi-draw per material and winding,
 /// equal meshes instanced.
-/// Shaders find the instance as visible_instances[gl_BaseInstance + gl_InstanceID] (BINDING_VISIBLE_INSTANCES, with
-/// ARB_shader_draw_parameters).
+/// Shaders read the instance from vertex attributes, see GpuScene::bind.
 class DrawList {
   public:
     enum class Filter { all, shadow_casters, static_shadow_casters };
@@ -43,7 +42,7 @@ class DrawList {
         std::size_t instances = 0, triangles = 0;
     };
     std::vector<ViewBatches> views_;
-    gl::Buffer commands_, visible_;
+    gl::Buffer commands_, drawn_;
 };
 
 }  // namespace tyndall

@@ -77,6 +77,9 @@ void GpuScene::upload_meshes(const Scene& scene) {
     vertex_array_.attribute(2, 0, 4, GL_FLOAT, offsetof(Vertex, tangent));
     vertex_array_.attribute(3, 0, 2, GL_FLOAT, offsetof(Vertex, uv));
     vertex_array_.attribute(4, 0, 4, GL_FLOAT, offsetof(Vertex, color));
+    for (GLuint row = 0; row < 3; ++row)
+        vertex_array_.attribute(5 + row, 1, 4, GL_FLOAT, row * static_cast<GLuint>(sizeof(glm::vec4)));
+    vertex_array_.integer_attribute(8, 1, 1, GL_UNSIGNED_INT, offsetof(DrawnInstance, instance));
     vertex_array_.index_buffer(indices_.id());
 }
 
@@ -139,7 +142,6 @@ void GpuScene::place_instances(const Scene& scene) {
         if (instances_[i].dynamic) dynamic_.push_back(static_cast<int>(i));
     }
     previous_models_ = models_;
-    transforms_ = gl::Buffer::of(std::span<const glm::mat4>(models_), "instance transforms");
 }
 
 void GpuScene::update(const Scene& scene) {
@@ -152,12 +154,6 @@ void GpuScene::update(const Scene& scene) {
         instance.bounds = transformed(scene.meshes[static_cast<std::size_t>(instance.mesh)].bounds, world);
         instance.mirrored = mirrors(world);
     }
-    write_dynamic(transforms_, models_);
-}
-
-void GpuScene::write_dynamic(gl::Buffer& transforms, const std::vector<glm::mat4>& models) const {
-    const auto first = static_cast<std::size_t>(dynamic_.front()), last = static_cast<std::size_t>(dynamic_.back());
-    transforms.write(first * sizeof(glm::mat4), (last - first + 1) * sizeof(glm::mat4), &models[first]);
 }
 
 bool GpuScene::has_moved(const Frustum& frustum) const {
@@ -172,14 +168,19 @@ void GpuScene::bind_previous() {
     if (!previous_transforms_)
         previous_transforms_ =
             gl::Buffer::of(std::span<const glm::mat4>(previous_models_), "previous instance transforms");
-    else if (!dynamic_.empty())
-        write_dynamic(previous_transforms_, previous_models_);
+    else if (!dynamic_.empty()) {
+        // From the first to the last dynamic one: fewer calls matter more than the bytes between.
+        const auto first = static_cast<std::size_t>(dynamic_.front()),
+                   last = static_cast<std::size_t>(dynamic_.back());
+        previous_transforms_.write(first * sizeof(glm::mat4), (last - first + 1) * sizeof(glm::mat4),
+                                   &previous_models_[first]);
+    }
     previous_transforms_.bind(GL_SHADER_STORAGE_BUFFER, BINDING_PREVIOUS_INSTANCES);
 }
 
-void GpuScene::bind() const {
+void GpuScene::bind(const gl::Buffer& drawn) const {
+    vertex_array_.vertex_buffer(1, drawn.id(), 0, sizeof(DrawnInstance), 1);
     vertex_array_.bind();
-    transforms_.bind(GL_SHADER_STORAGE_BUFFER, BINDING_INSTANCES);
 }
 
 bool GpuScene::has_dynamic_caster(const Frustum& frustum) const {

@@ -34,8 +34,8 @@ class GpuScene {
     /// Throws Error for a picture larger than the driver's limit.
     /// `anisotropy` of the material textures' filter, 1 to the driver's limit.
     explicit GpuScene(const Scene& scene, float anisotropy = 4);
-    /// Uploads the transforms of dynamic instances and refreshes their bounds and whether they are mirrored. Once a
-    /// frame: those before are kept.
+    /// Refreshes dynamic instances: transforms, bounds, and whether they are mirrored. Once a frame: the transforms
+    /// before are kept.
     void update(const Scene& scene);
     /// Something opaque whose bounds meet `frustum` had another transform at the update before.
     [[nodiscard]] bool has_moved(const Frustum& frustum) const;
@@ -57,10 +57,20 @@ class GpuScene {
     };
     [[nodiscard]] const GpuMaterial& material(int index) const { return materials_[index]; }
 
-    /// Attribute 0 position, 1 normal, 2 tangent, 3 uv, 4 colour; instance transforms at BINDING_INSTANCES (mat4
-    /// model per instance, in the order of instances()).
-    void bind() const;
-    /// The transforms at the update before, in the same form, at BINDING_PREVIOUS_INSTANCES. Uploads them.
+    /// What a draw reads of an instance: once for all of its vertices, where a storage buffer would be read at
+    /// each.
+    struct DrawnInstance {
+        glm::mat3x4 model_rows;  ///< rows of the affine model matrix
+        std::uint32_t instance;  ///< index into instances()
+    };
+    [[nodiscard]] DrawnInstance drawn(std::size_t instance) const {
+        return {glm::transpose(glm::mat4x3(models_[instance])), static_cast<std::uint32_t>(instance)};
+    }
+    /// Attribute 0 position, 1 normal, 2 tangent, 3 uv, 4 colour; of each instance, from the draw's base instance
+    /// on: 5 to 7 model_rows, 8 its index. `drawn` holds DrawnInstances.
+    void bind(const gl::Buffer& drawn) const;
+    /// The transforms at the update before, mat4 per instance in the order of instances(), at
+    /// BINDING_PREVIOUS_INSTANCES. Uploads them.
     void bind_previous();
     /// True when a dynamic shadow caster whose bounds meet `frustum` exists.
     [[nodiscard]] bool has_dynamic_caster(const Frustum& frustum) const;
@@ -70,9 +80,6 @@ class GpuScene {
     void upload_meshes(const Scene& scene);
     void upload_materials(const Scene& scene);
     void place_instances(const Scene& scene);
-    /// Uploads those of `models` from the first to the last dynamic one: fewer calls matter more than the bytes
-    /// between.
-    void write_dynamic(gl::Buffer& transforms, const std::vector<glm::mat4>& models) const;
 
     float anisotropy_;
     std::vector<Instance> instances_;
@@ -82,7 +89,7 @@ class GpuScene {
     std::vector<GpuMaterial> materials_;
     std::map<std::tuple<int, bool, float>, gl::Texture> textures_;  ///< by picture, sRGB, alpha cutoff (0: none)
     gl::Texture white_, flat_normal_;
-    gl::Buffer vertices_, indices_, transforms_;
+    gl::Buffer vertices_, indices_;
     gl::Buffer previous_transforms_;  ///< from the first bind_previous on
     gl::VertexArray vertex_array_;
 };

@@ -60,7 +60,7 @@ std::vector<Layer> surface_layers(const GBuffer& gbuffer, float znear) {
     return {{.name = "depth", .texture = gbuffer.depth, .decode = view_depth(znear)},
             {.name = "albedo", .texture = gbuffer.albedo, .decode = albedo},
             {.name = "normal", .texture = gbuffer.normal, .decode = normal},
-            {.name = "emissive", .texture = gbuffer.emissive}};
+            {.name = "emissive", .texture = gbuffer.emissive, .is_light = true}};
 }
 
 }  // namespace tyndall

@@ -25,6 +25,7 @@ struct Layer {
     TextureRef texture;  ///< empty: the frame has none, and all of the layer is `absent`
     Decode decode = rgb;
     float absent = 0;
+    bool is_light = false;  ///< the texture is in units of Scene::light_unit(); what is read is in cd/m²
 };
 
 /// Those of the G-buffer.

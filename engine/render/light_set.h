@@ -21,7 +21,7 @@ namespace tyndall {
 /// The lamps of a frame as shaders read them, in the order of FrameFacts::lamps.
 class LightSet {
   public:
-    /// Without shadow tiles.
+    /// Without shadow tiles; intensities in units of Scene::light_unit().
     void update(const Scene& scene, std::span<const Lamp> lamps);
     /// `first_tile(scene light)` as ShadowAtlasPass gives it.
     void set_shadow_tiles(const std::function<int(std::size_t)>& first_tile);

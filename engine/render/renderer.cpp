@@ -57,6 +57,7 @@ struct Renderer::Impl {
         Layer layer;
     };
     std::map<std::string, KeptLayer> layers;  ///< those that were asked for
+    float light_unit = 1;                     ///< of the frame
     std::string layer;
 
     void resize(glm::ivec2 size);
@@ -81,6 +82,7 @@ void Renderer::Impl::resize(glm::ivec2 size) {
 shared::FrameData Renderer::Impl::frame_data(const FrameContext& frame) const {
     const View& view = frame.view;
     const glm::vec2 size(frame.size);
+    const float light_unit = frame.scene.light_unit();
     shared::FrameData data{};
     data.view = view.view;
     data.projection = view.projection;
@@ -93,10 +95,11 @@ shared::FrameData Renderer::Impl::frame_data(const FrameContext& frame) const {
     if (facts.has_sun) {
         const Light& sun = frame.scene.lights[*frame.scene.sun()];
         data.sun_direction = glm::vec4(-glm::vec3(node_pose(frame.scene, sun.node)[2]), 1);
-        data.sun_illuminance = glm::vec4(sun.intensity, 0);
+        data.sun_illuminance = glm::vec4(sun.intensity / light_unit, 0);
     }
-    data.exposure = glm::vec4(exposure_factor(frame.scene.exposure_ev100, frame.settings.exposure_bias),
-                              frame.settings.ambient, 0, 0);
+    data.exposure =
+        glm::vec4(light_unit * exposure_factor(frame.scene.exposure_ev100, frame.settings.exposure_bias),
+                  frame.settings.ambient, 0, 0);
     set_cluster_grid(data, frame.settings, view.znear, lights.lights().size());
     return data;
 }
@@ -159,7 +162,7 @@ void Renderer::Impl::add_passes(FrameContext& frame, LightSources& sources) {
     passes.export_texture(radiance);
     passes.export_texture(add_display(frame, radiance));
 
-    if (layers.contains("color")) layers["color"].texture = color;
+    if (layers.contains("color")) layers["color"] = {color, {.name = "color", .texture = {}, .is_light = true}};
     for (const Layer& own : surface_layers(g, frame.view.znear)) keep_layer(own);
     for (const FrameModule* module : modules)
         for (const Layer& added : module->layers()) keep_layer(added);
@@ -211,6 +214,8 @@ void Renderer::prepare(const Scene& scene, float anisotropy) {
 void Renderer::render(const Scene& scene, const View& view, glm::ivec2 size, const FrameOptions& options) {
     Impl& r = *impl_;
     TYNDALL_CHECK(r.scene);
+    if (r.light_unit != scene.light_unit()) invalidate_history();
+    r.light_unit = scene.light_unit();
     r.layers.clear();
     std::vector<std::string> wanted = options.more_layers;
     wanted.push_back(options.layer);
@@ -275,7 +280,12 @@ Image Renderer::read_layer() const {
 Image Renderer::read_layer(const std::string& name) const {
     TYNDALL_CHECK(impl_->layers.contains(name));
     const auto& [texture, layer] = impl_->layers.at(name);
-    if (texture) return layer.decode(gl::read_texture(texture), size());
+    if (texture) {
+        Image image = layer.decode(gl::read_texture(texture), size());
+        if (layer.is_light)
+            for (float& value : image.pixels) value *= impl_->light_unit;
+        return image;
+    }
     Image image(size(), 3);
     std::ranges::fill(image.pixels, layer.absent);
     return image;

@@ -66,7 +66,7 @@ class Renderer {
     /// Framebuffer whose colour attachment 0 is display().
     [[nodiscard]] GLuint display_framebuffer() const;
     [[nodiscard]] gl::TextureView display() const;  ///< RGBA8, exposed, tonemapped and sRGB encoded
-    [[nodiscard]] gl::TextureView color() const;    ///< RGBA16F, linear radiance in cd/m²
+    [[nodiscard]] gl::TextureView color() const;    ///< RGBA16F, linear radiance in Scene::light_unit()
     /// What a player sees, 4 channels 0..1, row 0 at the top. Waits for the GPU.
     [[nodiscard]] Image read_display() const;
     /// FrameOptions::layer of the last frame, linear, 3 channels (depth: 1), row 0 at the top: color and emissive

@@ -53,6 +53,10 @@ std::vector<std::size_t> Scene::suns() const {
     return found;
 }
 
+float Scene::light_unit() const {
+    return std::exp2(std::clamp(std::round(exposure_ev100), -10.0f, 50.0f));
+}
+
 std::optional<std::size_t> Scene::sun() const {
     const std::vector<std::size_t> all = suns();
     return all.empty() ? std::nullopt : std::optional(all.front());

@@ -145,6 +145,10 @@ struct Scene {
     [[nodiscard]] const Node* find_node(const std::string& name) const;
     /// Indices of the suns that shine, by luminance, the brightest first; of equals the earlier one.
     [[nodiscard]] std::vector<std::size_t> suns() const;
+    /// The luminance (cd/m²) that is 1 in shaders and textures: the power of two nearest to 2^EV, from 2^-10 to
+    /// 2^50, so that half floats hold what is up to 16 stops brighter than white, and what is far below the
+    /// faintest step of a display.
+    [[nodiscard]] float light_unit() const;
     /// The brightest: the one whose sky is seen and that has cascades. The others are lamps, see find_lamps().
     [[nodiscard]] std::optional<std::size_t> sun() const;
 };

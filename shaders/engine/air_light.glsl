@@ -1,5 +1,5 @@
 // Light that a point in the air scatters towards the eye where it scatters all of it, alike in all directions: the mean
-// over the sphere of what arrives, sum E V / (4 pi) + ambient. Linear radiance, cd/m².
+// over the sphere of what arrives, sum E V / (4 pi) + ambient. Linear radiance.
 #ifndef ENGINE_AIR_LIGHT_GLSL
 #define ENGINE_AIR_LIGHT_GLSL
 

@@ -7,7 +7,7 @@
 layout(location = 0) out vec4 out_albedo;
 layout(location = 1) out vec2 out_normal;
 layout(location = 2) out vec4 out_material;  // roughness, metallic, occlusion, dielectric f0 / BRDF_F0_STORED
-layout(location = 3) out vec4 out_emissive;  // cd/m²
+layout(location = 3) out vec4 out_emissive;  // radiance
 #if MOTION
 layout(location = 4) in vec3 clip_now;
 layout(location = 5) in vec3 clip_before;

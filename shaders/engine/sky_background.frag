@@ -8,7 +8,7 @@ layout(location = 0) out vec4 color;
 layout(binding = 0) uniform samplerCube sky;
 
 uniform vec3 to_sun;
-uniform float illuminance;  // lux
+uniform float illuminance;  // in units of light
 
 void main() {
     vec4 far = frame.inverse_view_projection * vec4(uv * 2.0 - 1.0, 1.0, 1.0);

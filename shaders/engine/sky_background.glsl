@@ -7,7 +7,7 @@
 
 const float SKY_SUN_RADIUS = 0.00465f;  // rad; half of 0.533 degrees
 const float SKY_CLOUD_HEIGHT = 7.0f;    // km
-const float SKY_BRIGHTEST = 60000.0f;   // cd/m^2; half floats and the tonemap need no more
+const float SKY_BRIGHTEST = 60000.0f;   // in units of light; half floats and the tonemap need no more
 
 float sky_lattice(ivec2 p) {
     uint h = uint(p.x) * 0x9e3779b9u ^ uint(p.y) * 0x85ebca6bu;

@@ -10,7 +10,6 @@
 #define BINDING_NOISE 2  // volumetrics: noise_offset.glsl
 
 // Storage buffers. 1 to 4 are what lights are read from (shaders/interface): bound together for every lit pass.
-#define BINDING_INSTANCES 0           // geometry: G-buffer, shadows, transparent surfaces
 #define BINDING_PARTICLES 0           // transparent particles
 #define BINDING_SPRITES 0             // volumetrics: billboards, particles
 #define BINDING_MEDIA_TILES 0         // volumetrics: inject_media
@@ -23,7 +22,6 @@
 #define BINDING_LAMP_VOLUMES 5        // whatever is lit through local media
 #define BINDING_VISIBLE_LIGHTS 5      // light culling, clusters
 #define BINDING_PREVIOUS_INSTANCES 5  // geometry: G-buffer with motion
-#define BINDING_VISIBLE_INSTANCES 6   // geometry
 #define BINDING_LOCAL_MEDIA 6         // volumetrics: local_media.glsl
 #define BINDING_WORK 7                // every pass that counts its work
 

@@ -1,4 +1,4 @@
-// The engine's per-frame uniform block.
+// The engine's per-frame uniform block. Shaders and textures hold light in units of Scene::light_unit() cd/m².
 #ifndef SHARED_FRAME_H
 #define SHARED_FRAME_H
 #include "shaders/shared/types.h"
@@ -19,13 +19,13 @@ struct FrameData {
     vec4 depth;           // x near (m), y cluster near (m), z cluster far (m), w slices / log(far/near)
     uvec4 cluster_size;   // x, y, slices; w number of local lights
     vec4 sun_direction;   // xyz unit, the direction sunlight travels; w 1 if there is a sun
-    vec4 sun_illuminance; // rgb lux, perpendicular to the direction
+    vec4 sun_illuminance; // rgb, perpendicular to the direction; lux in units of light
     mat4 sun_cascade[SUN_CASCADES];   // world to shadow texture xyz (0..1), reversed: nearer to the sun is greater
     mat4 sun_static;                  // the same for the baked map behind the cascades
     vec4 sun_cascade_far;             // view depth (m) where each cascade ends
     vec4 sun_texel;                   // world size (m) of one texel of each cascade
     vec4 sun_static_texel;            // x world size of one texel of the baked map; y 1/cascade map size; z 1/static map size
-    vec4 exposure;                    // x: factor from luminance to display; y ambient factor
+    vec4 exposure;                    // x: factor from a unit of light to display; y ambient factor
 };
 
 SHARED_END

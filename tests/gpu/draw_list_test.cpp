@@ -62,15 +62,14 @@ class DrawListTest : public GlTest {
   protected:
     DrawListTest() {
         const std::string vertex = R"(#version 450 core
-            #extension GL_ARB_shader_draw_parameters : require
             layout(location = 0) in vec3 position;
-            layout(std430, binding = 0) readonly buffer Models { mat4 models[]; };
-            layout(std430, binding = 6) readonly buffer Visible { uint visible_instances[]; };
+            layout(location = 5) in mat3x4 model_rows;
+            layout(location = 8) in uint drawn;
             uniform mat4 view_projection;
             flat out uint instance;
             void main() {
-                instance = visible_instances[gl_BaseInstanceARB + gl_InstanceID];
-                gl_Position = view_projection * models[instance] * vec4(position, 1);
+                instance = drawn;
+                gl_Position = view_projection * vec4(vec4(position, 1) * model_rows, 1);
             })";
         const std::string fragment = R"(#version 450 core
             flat in uint instance;

@@ -30,7 +30,7 @@ class Contexts : public ::testing::TestWithParam<const char*> {
     Image draw(const std::string& context) {
         const std::filesystem::path out = folder_ / (context + ".png");
         const CommandResult result = run_tyndall({"render", level(), "-o", out.string(), "--camera", GetParam(),
-                                                  "--size", "160x90", "--context", context});
+                                                  "--size", "96x54", "--context", context});
         EXPECT_EQ(result.exit_code, 0) << result.err;
         return read_image(out, 3);
     }

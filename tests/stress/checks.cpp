@@ -4,6 +4,7 @@
 #include <glad/gl.h>
 
 #include <cmath>
+#include <utility>
 
 #include "engine/gl/readback.h"
 #include "engine/platform/gl_context.h"
@@ -25,9 +26,11 @@ void check_layer(const char* name, const Image& image, float most, Findings& fin
 
 }  // namespace
 
-Layers read_layers(const Renderer& renderer) {
-    return {renderer.read_layer("scattering"), renderer.read_layer("transmittance"),
-            gl::read_texture(renderer.color()), renderer.read_layer("depth")};
+Layers read_layers(const Renderer& renderer, const Scene& scene) {
+    Image scattering = renderer.read_layer("scattering");
+    for (float& value : scattering.pixels) value /= scene.light_unit();
+    return {std::move(scattering), renderer.read_layer("transmittance"), gl::read_texture(renderer.color()),
+            renderer.read_layer("depth")};
 }
 
 void check_values(const Layers& layers, float most, Findings& findings) {

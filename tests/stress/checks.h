@@ -8,11 +8,11 @@
 
 namespace tyndall::stress {
 
-/// The layers of one drawn frame.
+/// The layers of one drawn frame; light in units of Scene::light_unit().
 struct Layers {
     Image scattering, transmittance, color, depth;
 };
-[[nodiscard]] Layers read_layers(const Renderer& renderer);
+[[nodiscard]] Layers read_layers(const Renderer& renderer, const Scene& scene);
 
 /// What is wrong, where, and the value; one line.
 using Findings = std::vector<std::string>;

@@ -14,8 +14,8 @@
 namespace tyndall::stress {
 namespace {
 
-constexpr const char* fault_limit =
-    "fault: light beyond 65504 is cut off before filters, means and up-sampling take their share of it";
+constexpr const char* limit_white =
+    "limit: light 16 stops above white is cut off before filters, means and up-sampling take their share of it";
 constexpr const char* fault_density =
     "fault: local emission and extinction beyond 65504 are cut off in froxels, so that their ratio is lost";
 constexpr const char* dark = "dark: no light, so that it is certain that there is none and nothing else";
@@ -28,13 +28,13 @@ double mean_of(const Image& image) {
 }
 
 /// Local media somewhere emit or absorb more than a half float holds, or close to it.
-bool exceeds_froxels(const Medium& medium) {
+bool exceeds_froxels(const Medium& medium, float light_unit) {
     constexpr float noise = 2;
     const glm::vec3 sigma_t = medium.sigma_s + medium.sigma_a;
     const float lowest = medium.center.y - glm::length(medium.half_extent);
     const float density = medium.height_profile ? std::exp((medium.base - lowest) / medium.falloff) : 1;
-    const float most = std::max(
-        {sigma_t.x, sigma_t.y, sigma_t.z, 2 * medium.emission.x, 2 * medium.emission.y, 2 * medium.emission.z});
+    const glm::vec3 emission = 2.0f / light_unit * medium.emission;
+    const float most = std::max({sigma_t.x, sigma_t.y, sigma_t.z, emission.x, emission.y, emission.z});
     return is_bounded(medium) && most > 0 && noise * most * density > 0.9f * half_max;
 }
 
@@ -179,7 +179,7 @@ std::vector<Layers> Compare::draw(const StressFrame& frame, const Scene& scene, 
         StressOptions next = options;
         next.frame_index += static_cast<std::uint32_t>(i);
         renderer.render(scene, frame.view, frame.size, next);
-        all.push_back(read_layers(renderer));
+        all.push_back(read_layers(renderer, scene));
     }
     return all;
 }
@@ -205,11 +205,11 @@ void Compare::check(const StressFrame& frame, Random random, Findings& findings)
 }
 
 void Compare::check_doubled(const StressFrame& frame, Findings& findings) {
-    if (std::ranges::any_of(frame.media, exceeds_froxels)) {
+    Scene scene = pose_scene(worlds_[frame.world].scene, frame);
+    if (std::ranges::any_of(scene.media, [&](const Medium& m) { return exceeds_froxels(m, scene.light_unit()); })) {
         tally.leave_out(fault_density, frame.size.x * frame.size.y);
         return;
     }
-    Scene scene = pose_scene(worlds_[frame.world].scene, frame);
     const Layers once = draw(frame, scene, frame.options, 1).back();
     for (Light& light : scene.lights) light.intensity *= 2;
     for (Medium& medium : scene.media) medium.emission *= 2;
@@ -222,13 +222,13 @@ void Compare::check_doubled(const StressFrame& frame, Findings& findings) {
                            v.resolution.size != volumetrics::Resolution::full || v.technique == "froxel";
     constexpr float least_share = 1.0f / 225;  // of the widest filter's pixels
     if (brightest > (of_shares ? 0.9f * least_share : 0.9f) * half_max) {
-        tally.leave_out(fault_limit, pixels);
+        tally.leave_out(limit_white, pixels);
         return;
     }
     Worst worst;
     const double mean = mean_of(once.scattering);
     // The sky of a night without a moon is no light that is doubled (shaders/engine/sky_model.glsl).
-    const double night = 3.2e-4 * double(frame.options.render.ambient);
+    const double night = 3.2e-4 * double(frame.options.render.ambient) / double(scene.light_unit());
     for (int i = 0; i < pixels; ++i) {
         const glm::ivec2 at(i % frame.size.x, i / frame.size.x);
         const float* value = once.scattering.at(at.x, at.y);

@@ -117,7 +117,7 @@ StressFrame make_frame(std::uint64_t seed, int number) {
     frame.options.more_layers = {"transmittance", "depth"};
     frame.options.frame_index = static_cast<std::uint32_t>(number);
     frame.options.time = random.pick({0.0, 1e-3 * number, 1e6});
-    frame.exposure_ev100 = static_cast<float>(random.linear(-30, 40));
+    frame.exposure_ev100 = static_cast<float>(of_sequence.linear(-30, 40));
     frame.cut = number % sequence_length == 0 || random.chance(0.2);
     return frame;
 }
@@ -136,6 +136,10 @@ Scene pose_scene(const Scene& world, const StressFrame& frame) {
     }
     scene.media = frame.media;
     scene.exposure_ev100 = frame.exposure_ev100;
+    if (!frame.comparable) return scene;
+    // Drawn for an exposure of 0; see draw_lights.cpp and draw_media.cpp.
+    for (Light& light : scene.lights) light.intensity *= scene.light_unit();
+    for (Medium& medium : scene.media) medium.emission *= scene.light_unit();
     return scene;
 }
 

@@ -29,7 +29,7 @@ Layers Run::render(const StressFrame& frame, World world) {
     volumetrics->settings = frame.options.volumetrics;
     const Scene posed = pose_scene(scene, frame);
     renderer->render(posed, frame.view, frame.size, frame.options);
-    return read_layers(*renderer);
+    return read_layers(*renderer, posed);
 }
 
 void Run::draw(int number) {

@@ -86,6 +86,7 @@ void Truth::apply_fog_mode(reference::Reference::Ray& ray) const {
 Truth::Pixel Truth::trace(glm::ivec2 place) const {
     Pixel pixel{place, pixel_ray(frame_.view, frame_.size, place), {}};
     pixel.open = open_->trace(pixel.ray.origin, pixel.ray.direction, pixel.ray.begin);
+    pixel.open.scattering /= scene_.light_unit();
     apply_fog_mode(pixel.open);
     return pixel;
 }
@@ -97,7 +98,7 @@ dvec3 Truth::transmittance(glm::ivec2 place) const {
 }
 
 dvec3 Truth::shadowed(const PixelRay& ray) const {
-    return shadowed_->trace(ray.origin, ray.direction, ray.begin).scattering;
+    return shadowed_->trace(ray.origin, ray.direction, ray.begin).scattering / double(scene_.light_unit());
 }
 
 }  // namespace tyndall::stress

@@ -18,7 +18,7 @@ struct PixelRay {
 [[nodiscard]] PixelRay pixel_ray(const View& view, glm::dvec2 size, glm::dvec2 pixel);
 
 /// The scene of a comparable frame as its technique knows it, by the CPU's ground truth: without lamps, local media
-/// and shadows where the technique's documentation leaves them out.
+/// and shadows where the technique's documentation leaves them out. Light is in units of Scene::light_unit().
 class Truth {
   public:
     Truth(const StressFrame& frame, Scene scene);

@@ -55,7 +55,6 @@ void GBufferPass::draw(const FrameContext& frame, const glm::mat4* previous_view
     glClearBufferfv(GL_DEPTH, 0, zero);
 
     glBindSamplers(0, 5, nullptr);  // the scene's textures carry their own sampling
-    frame.gpu.bind();
     if (motion != 0) {
         frame.gpu.bind_previous();
         for (const gl::Program* p : programs) p->set("u_previous_view_projection", *previous_view_projection);
@@ -67,7 +66,8 @@ void GBufferPass::draw(const FrameContext& frame, const glm::mat4* previous_view
                    .cull = static_cast<GLenum>(material.double_sided ? GL_NONE : GL_BACK),
                    .clockwise = surfaces.mirrored});
         glEnable(GL_FRAMEBUFFER_SRGB);  // the albedo target encodes; the next pass's state turns it off
-        bind_material(*programs[material.alpha_mask ? 1 : 0], material, surfaces.mirrored);
+        bind_material(*programs[material.alpha_mask ? 1 : 0], material, surfaces.mirrored,
+                      frame.scene.light_unit());
         return true;
     });
 }

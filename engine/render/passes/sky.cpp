@@ -34,17 +34,18 @@ void fill_cube(GLuint cube, int size) {
 }  // namespace
 
 SkyPass::Output SkyPass::add(FrameContext& frame) {
-    sun_ = {{0, 1, 0}, 0};
-    if (frame.facts.has_sun)
-        sun_ = {-glm::vec3(frame.frame.sun_direction),
-                glm::dot(glm::vec3(frame.frame.sun_illuminance), glm::vec3(0.2126f, 0.7152f, 0.0722f))};
+    sun_ = {.to_sun = {0, 1, 0}, .light_unit = frame.scene.light_unit()};
+    if (const auto sun = frame.scene.sun()) {
+        sun_.to_sun = -glm::vec3(frame.frame.sun_direction);
+        sun_.illuminance = glm::dot(frame.scene.lights[*sun].intensity, glm::vec3(0.2126f, 0.7152f, 0.0722f));
+    }
     if (!radiance_) {
         radiance_ = gl::Texture({gl::TextureKind::cube, GL_RGBA16F, {radiance_size, radiance_size, 1}, 0}, "sky");
         irradiance_ =
             gl::Texture({gl::TextureKind::cube, GL_RGBA16F, {irradiance_size, irradiance_size, 1}, 0}, "ambient");
     }
     Output sky{frame.passes.import("sky", radiance_), frame.passes.import("ambient", irradiance_)};
-    constexpr const char* unchanged = "the sun has not changed";
+    constexpr const char* unchanged = "the sun and the exposure have not changed";
     if (sun_ == drawn_)
         frame.passes.skip("sky/cube", unchanged);
     else
@@ -65,6 +66,7 @@ void SkyPass::add_cube(FrameContext& frame, Output& sky) {
             const gl::Program& shader = frame.shaders.get(cube_program);
             shader.set("to_sun", sun_.to_sun);
             shader.set("illuminance", sun_.illuminance);
+            shader.set("light_unit", sun_.light_unit);
             shader.use();
             fill_cube(radiance_.id(), radiance_size);
             drawn_ = sun_;
@@ -103,7 +105,7 @@ TextureRef SkyPass::add_background(FrameContext& frame, const Output& sky, Textu
             gl::apply({.depth_test = true});
             const gl::Program& shader = frame.shaders.get(background_program);
             shader.set("to_sun", sun_.to_sun);
-            shader.set("illuminance", sun_.illuminance);
+            shader.set("illuminance", sun_.illuminance / sun_.light_unit);
             shader.use();
             glBindTextureUnit(0, radiance_.id());
             glBindSampler(0, 0);

@@ -25,7 +25,8 @@ class SkyPass {
   private:
     struct Sun {
         glm::vec3 to_sun{0};   ///< unit
-        float illuminance{0};  ///< 0: none
+        float illuminance{0};  ///< lux; 0: none
+        float light_unit{1};   ///< see Scene
         friend bool operator==(const Sun&, const Sun&) = default;
     };
     void add_cube(FrameContext& frame, Output& sky);

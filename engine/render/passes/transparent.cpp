@@ -59,10 +59,10 @@ struct Item {
     std::uint32_t index;
 };
 
-shared::Particle pack(const Particle& p) {
+shared::Particle pack(const Particle& p, float light_unit) {
     return {.position_radius = {p.position, p.radius},
             .color_opacity = {p.color, p.opacity},
-            .emission_seed = {p.emission, p.random}};
+            .emission_seed = {p.emission / light_unit, p.random}};
 }
 
 bool is_near(const FrameContext& frame, int node, glm::vec3 point) {
@@ -109,9 +109,9 @@ bool TransparentPass::gather(const FrameContext& frame) {
         else
             draws_.push_back({item.particle, static_cast<std::uint32_t>(first), 1});
         if (item.particle)
-            particles_.push_back(pack(particles[item.index]));
+            particles_.push_back(pack(particles[item.index], frame.scene.light_unit()));
         else
-            instances_.push_back(item.index);
+            instances_.push_back(frame.gpu.drawn(item.index));
     }
     return !draws_.empty();
 }
@@ -120,12 +120,12 @@ TextureRef TransparentPass::add(FrameContext& frame, const GBuffer& g, const Lig
                                 std::span<FrameModule* const> modules, TextureRef color) {
     if (draws_.empty()) {
         frame.passes.skip("transparent", "nothing transparent in view");
-        visible_ = {};
+        drawn_ = {};
         particle_buffer_ = {};
         return color;
     }
     if (!no_vertices_.id()) no_vertices_ = gl::VertexArray("particles");
-    visible_.assign(std::span<const std::uint32_t>(instances_), "transparent instances");
+    drawn_.assign(std::span<const GpuScene::DrawnInstance>(instances_), "transparent instances");
     particle_buffer_.assign(std::span<const shared::Particle>(particles_), "particles");
     std::vector<FrameModule::Transparents> additions;
     for (const FrameModule* module : modules) additions.push_back(module->transparents());
@@ -170,12 +170,11 @@ TextureRef TransparentPass::add(FrameContext& frame, const GBuffer& g, const Lig
 
 void TransparentPass::draw_instance(const FrameContext& frame, const gl::Program& shader,
                                     std::uint32_t index) const {
-    const Instance& instance = frame.gpu.instances()[instances_[index]];
+    const Instance& instance = frame.gpu.instances()[instances_[index].instance];
     const GpuScene::GpuMaterial& material = frame.gpu.material(instance.material);
     const GpuScene::MeshRange& range = frame.gpu.range(instance.mesh);
-    frame.gpu.bind();
-    visible_.bind(GL_SHADER_STORAGE_BUFFER, BINDING_VISIBLE_INSTANCES);
-    bind_material(shader, material, instance.mirrored);
+    frame.gpu.bind(drawn_);
+    bind_material(shader, material, instance.mirrored, frame.scene.light_unit());
     const auto draw_faces = [&](GLenum cull) {
         gl::apply({.depth_test = true, .cull = cull, .clockwise = instance.mirrored, .blend = gl::Blend::over});
         const std::uintptr_t offset = range.first_index * sizeof(std::uint32_t);

@@ -34,10 +34,10 @@ class TransparentPass {
     };
     void draw_instance(const FrameContext& frame, const gl::Program& shader, std::uint32_t index) const;
 
-    std::vector<Draw> draws_;               ///< back to front
-    std::vector<std::uint32_t> instances_;  ///< of GpuScene::instances()
+    std::vector<Draw> draws_;  ///< back to front
+    std::vector<GpuScene::DrawnInstance> instances_;
     std::vector<shared::Particle> particles_;
-    gl::Buffer visible_, particle_buffer_;
+    gl::Buffer drawn_, particle_buffer_;
     gl::VertexArray no_vertices_;
 };
 

@@ -16,7 +16,7 @@ struct Settings;
 struct GlobalMedium {
     glm::vec3 sigma_s{0}, sigma_a{0};
     float anisotropy = 0;   ///< g in (-1, 1), > 0 is forward
-    glm::vec3 emission{0};  ///< radiance per metre
+    glm::vec3 emission{0};  ///< radiance per metre, in the unit of light of shaders/interface/lights.glsl
     bool rayleigh = false;  ///< scatters as air does, whatever Settings::phase; anisotropy is then not read
     bool height = false;
     float base = 0, falloff = 1;  ///< m
