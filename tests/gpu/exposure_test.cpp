@@ -1,4 +1,5 @@
-// Pictures are exposed before they are stored: half floats hold what is bright on the scene's exposure, however bright that is.
+// Pictures are exposed before they are stored: half floats hold what is bright on the scene's exposure, however
+// bright that is.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -38,7 +39,8 @@ class Exposure : public GlTest {
         volumetrics_.settings.technique = technique;
         renderer_.invalidate_history();
         draw(scene);
-        return {renderer_.read_layer("scattering"), renderer_.read_layer("emissive"), renderer_.read_layer("color")};
+        return {renderer_.read_layer("scattering"), renderer_.read_layer("emissive"),
+                renderer_.read_layer("color")};
     }
 
     test::SceneBuilder builder_;
@@ -89,8 +91,9 @@ TEST_F(Exposure, AsMuchMoreLightAsLessExposureIsTheSamePicture) {
     }
 }
 
-// Before a wall, with the sun behind it: E p(g, cos) sigma_s / sigma_t (1 - exp(-sigma_t d)), to 3 times what a half float holds.
-// Billboards and particles take single samples of it, and radial_shafts sees no sun behind a wall: the test above holds for them.
+// Before a wall, with the sun behind it: E p(g, cos) sigma_s / sigma_t (1 - exp(-sigma_t d)), to 3 times what a
+// half float holds. Billboards and particles take single samples of it, and radial_shafts sees no sun behind a
+// wall: the test above holds for them.
 TEST_F(Exposure, HazeBeforeTheSunIsNotCutOff) {
     constexpr float lux = 120'000, g = 0.85f;
     builder_.sun({0, -0.05f, 1}, glm::vec3(lux), false);
@@ -109,8 +112,7 @@ TEST_F(Exposure, HazeBeforeTheSunIsNotCutOff) {
         for (const int y : {4, 8, 12}) {
             // The ray through the pixel's middle.
             const glm::dvec2 size(24, 17), at = (glm::dvec2(12.5, y + 0.5) * 2.0 / size - 1.0) * glm::dvec2(1, -1);
-            const glm::dvec4 far =
-                glm::inverse(glm::dmat4(view_.view_projection)) * glm::dvec4(at, 0.01, 1);
+            const glm::dvec4 far = glm::inverse(glm::dmat4(view_.view_projection)) * glm::dvec4(at, 0.01, 1);
             const glm::dvec3 d = glm::normalize(glm::dvec3(far) / far.w - glm::dvec3(view_.eye));
             const double cosine = glm::dot(d, glm::normalize(glm::dvec3(0, 0.05, -1)));
             const double phase = (1 - double(g) * g) /
