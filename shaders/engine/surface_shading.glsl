@@ -1,4 +1,4 @@
-// Light that a surface sends to the eye, deferred and forward alike: sun, clustered lamps and sky. Linear radiance, cd/m².
+// Light that a surface sends to the eye, deferred and forward alike: sun, clustered lamps and sky. Linear radiance.
 // Diffuse and specular apart: glass lets the one through and not the other.
 #ifndef ENGINE_SURFACE_SHADING_GLSL
 #define ENGINE_SURFACE_SHADING_GLSL

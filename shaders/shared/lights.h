@@ -13,7 +13,7 @@ SHARED_BEGIN
 
 struct GpuLight {
     vec4 position_range;    // xyz world (m), w range (m)
-    vec4 intensity_radius;  // rgb candela, w radius (m): d² is clamped at radius²
+    vec4 intensity_radius;  // rgb candela in units of light (shaders/shared/frame.h), w radius (m): d² is clamped at radius²
     vec4 direction_type;    // xyz unit, the way it points; w LIGHT_*
     vec4 cone_shadow;       // x scale, y offset of the spot law clamp(cos * scale + offset, 0, 1)²; z first tile index, -1 = no shadow; w unused
 };
