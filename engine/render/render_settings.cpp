@@ -41,7 +41,7 @@ const SettingsTable& render_settings_table() {
             .integer_of(&S::tile_size_max,
                         {"tile_size_max", "Largest shadow tile",
                          "Side of the largest shadow map a lamp may get in the atlas.", "px"},
-                        {64, 128, 256, 512, 1024}, resource)
+                        {64, 128, 256, 512, 1024, 2048, 4096}, resource)
             .boolean(
                 &S::occlusion_culling,
                 {"occlusion_culling", "Occlusion culling",

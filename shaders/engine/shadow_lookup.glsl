@@ -59,17 +59,24 @@ struct MapTexels {
 
 float weighted_mean(vec4 v, vec2 weight) { return mix(mix(v.w, v.z, weight.x), mix(v.x, v.y, weight.x), weight.y); }
 
-// x: share of the texels that let light through at the point, y: of those through which it passes behind it. `ahead`: from
-// the middle of the texels' weights to the point, texels.
-vec2 texels_lit(MapTexels texels, MapPoint p, vec2 ahead) {
+// Whether the texels lie in a plane, of which a texel is `texel` in depth, and its depth `ahead` texels from the middle of
+// their weights.
+bool texels_plane(MapTexels texels, float texel, vec2 ahead, out float depth) {
     vec4 d = texels.depth;
     float nearest = max(max(d.x, d.y), max(d.z, d.w));
     float steps = nearest - min(min(d.x, d.y), min(d.z, d.w));
     float twist = abs(d.x + d.z - d.y - d.w);
-    if (steps <= SHADOW_STEEPEST * p.texel && twist <= 0.1 * steps + 0.05 * p.texel) {
-        vec2 slope = vec2(mix(d.z - d.w, d.y - d.x, texels.weight.y), mix(d.x - d.w, d.y - d.z, texels.weight.x));
-        d = vec4(min(weighted_mean(d, texels.weight) + dot(slope, ahead), nearest));  // it may end there
-    }
+    vec2 slope = vec2(mix(d.z - d.w, d.y - d.x, texels.weight.y), mix(d.x - d.w, d.y - d.z, texels.weight.x));
+    depth = min(weighted_mean(d, texels.weight) + dot(slope, ahead), nearest);  // it may end there
+    return steps <= SHADOW_STEEPEST * texel && twist <= 0.1 * steps + 0.05 * texel;
+}
+
+// x: share of the texels that let light through at the point, y: of those through which it passes behind it. `ahead`: from
+// the middle of the texels' weights to the point, texels.
+vec2 texels_lit(MapTexels texels, MapPoint p, vec2 ahead) {
+    float plane;
+    vec4 d = texels.depth;
+    if (texels_plane(texels, p.texel, ahead, plane)) d = vec4(plane);
     return vec2(weighted_mean(step(d, vec4(p.depth)), texels.weight),
                 weighted_mean(step(d, vec4(p.depth - p.behind)), texels.weight));
 }
@@ -190,13 +197,18 @@ MapPoint tile_point(GpuLight light, ShadowTile tile, vec4 clip, float texel, flo
     return MapPoint(uv / (2.0 * tile.rect.w), clamp(depth, 0.0, 1.0), texel * scale, behind * scale);
 }
 
-// The texels round a place moved by `tap`, kept where none of a neighbouring tile are read.
-vec2 tile_lit(ShadowTile tile, MapPoint p, vec2 tap) {
+// The texels round a place, which is moved to where none of a neighbouring tile are read.
+MapTexels tile_texels(ShadowTile tile, inout vec2 place) {
     float texel_uv = 2.0 * tile.rect.w;
     vec2 low = tile.rect.xy / texel_uv + 0.5;
-    vec2 place = clamp(p.place + tap, low, low + tile.rect.z / texel_uv - 1.0);
+    place = clamp(place, low, low + tile.rect.z / texel_uv - 1.0);
     vec2 corner = min(floor(place - 0.5), low + tile.rect.z / texel_uv - 2.5);
-    MapTexels texels = MapTexels(textureGather(shadow_atlas, (corner + 1.0) * texel_uv), place - 0.5 - corner);
+    return MapTexels(textureGather(shadow_atlas, (corner + 1.0) * texel_uv), place - 0.5 - corner);
+}
+
+vec2 tile_lit(ShadowTile tile, MapPoint p, vec2 tap) {
+    vec2 place = p.place + tap;
+    MapTexels texels = tile_texels(tile, place);
     return texels_lit(texels, p, p.place - place);
 }
 

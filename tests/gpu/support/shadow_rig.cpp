@@ -18,6 +18,10 @@ const char* call_of(ShadowRig::Lookup lookup) {
             return "light_shadow_surface(lights[uint(p.normal_light.w)], p.world_depth.xyz, p.normal_light.xyz)";
         case ShadowRig::Lookup::light_volume:
             return "light_shadow_volume(lights[uint(p.normal_light.w)], p.world_depth.xyz)";
+        case ShadowRig::Lookup::sun_occluder:
+            return "sun_shadow_occluder(p.world_depth.xyz)";
+        case ShadowRig::Lookup::light_occluder:
+            return "light_shadow_occluder(lights[uint(p.normal_light.w)], p.world_depth.xyz)";
     }
     return "";
 }
@@ -26,7 +30,7 @@ const char* call_of(ShadowRig::Lookup lookup) {
 
 std::string shadow_shader(const std::string& defines, const std::string& main) {
     return "#version 450 core\n#define TYNDALL_GLSL 1\n" + defines +
-           resolve_includes(data_root(), "shaders/engine/shadow_lookup.glsl") + main;
+           resolve_includes(data_root(), "shaders/engine/shadow_occluder.glsl") + main;
 }
 
 ShadowRig::ShadowRig(Scene scene_) : scene(std::move(scene_)), gpu_(scene), sun(shaders_), atlas(shaders_) {

@@ -11,7 +11,8 @@
 
 namespace tyndall {
 
-/// Runs the shadow passes on a scene and asks shaders/engine/shadow_lookup.glsl about points.
+/// Runs the shadow passes on a scene and asks shaders/engine/shadow_lookup.glsl and shadow_occluder.glsl about
+/// points.
 class ShadowRig {
   public:
     explicit ShadowRig(Scene scene_);
@@ -30,7 +31,7 @@ class ShadowRig {
         glm::vec3 normal{0, 1, 0};
         float light = -1;  ///< scene index of a lamp
     };
-    enum class Lookup { sun_surface, sun_volume, light_surface, light_volume };
+    enum class Lookup { sun_surface, sun_volume, light_surface, light_volume, sun_occluder, light_occluder };
     [[nodiscard]] std::vector<float> look_up(Lookup lookup, std::span<const Point> points);
     /// Shadow lookups that the instrumented shader counts for these points.
     [[nodiscard]] std::uint64_t counted(Lookup lookup, std::span<const Point> points);
@@ -62,7 +63,7 @@ class ShadowRig {
     gl::Buffer frame_buffer_, light_buffer_;
 };
 
-/// The text of a compute shader that includes shadow_lookup.glsl, with `defines` before and `main` after it.
+/// The text of a compute shader that includes shadow_occluder.glsl, with `defines` before and `main` after it.
 [[nodiscard]] std::string shadow_shader(const std::string& defines, const std::string& main);
 
 }  // namespace tyndall
