@@ -85,6 +85,7 @@ const std::vector<Family>& families() {
          "shaft_grid",
          "#b84a62",
          Marker::square},
+        {"epipolar", "epipolar", {}, {{"steps", {"1", "2", "4", "8", "16"}}}, "steps", "#d62728", Marker::plus},
         {"reference", "reference", {}, {}, "", "#009e73", Marker::star, 0, true},
     };
     return list;

@@ -26,7 +26,8 @@ std::size_t slot_stride() {
 }  // namespace
 
 const char* to_string(Work work) {
-    constexpr const char* names[] = {"medium_samples", "shadow_lookups", "light_evaluations", "texture_fetches"};
+    constexpr const char* names[] = {"medium_samples", "shadow_lookups", "light_evaluations", "texture_fetches",
+                                     "tree_nodes"};
     static_assert(std::size(names) == kinds);
     TYNDALL_CHECK_LT(static_cast<std::size_t>(work), kinds);
     return names[static_cast<std::size_t>(work)];

@@ -12,7 +12,7 @@ namespace tyndall::gl {
 
 /// What instrumented shaders count, exactly and independently of the machine. Order matches
 /// shaders/lib/work.glsl.
-enum class Work { medium_samples, shadow_lookups, light_evaluations, texture_fetches, count };
+enum class Work { medium_samples, shadow_lookups, light_evaluations, texture_fetches, tree_nodes, count };
 using WorkCounts = std::array<std::uint64_t, static_cast<int>(Work::count)>;
 [[nodiscard]] const char* to_string(Work work);
 

@@ -197,6 +197,15 @@ float lamp_segment_place(vec4 parts, float share) {
     return clamp(begin + width * (target - before) / max(part, 1.0e-30f), 0.0f, 1.0f);
 }
 
+// The inverse: the share of the light that is gathered before a share of the inverse square.
+float lamp_segment_share(vec4 parts, float share) {
+    float sum = dot(parts, vec4(1.0f));
+    if (!(sum > 1.0e-30f && sum < 1.0e30f)) return share;
+    vec4 begin = vec4(0.0f, 0.17392742f, 0.5f, 0.82607258f);
+    vec4 width = vec4(0.17392742f, 0.32607258f, 0.32607258f, 0.17392742f);
+    return dot(parts, clamp((vec4(share) - begin) / width, vec4(0.0f), vec4(1.0f))) / sum;
+}
+
 // int attenuation dt over the segment [1/m].
 float lamp_segment_integral(LampSegment segment) {
     return dot(segment.weight, vec4(1.0f));

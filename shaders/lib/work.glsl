@@ -11,6 +11,8 @@
 #define WORK_SHADOW_LOOKUPS 1u
 #define WORK_LIGHT_EVALUATIONS 2u
 #define WORK_TEXTURE_FETCHES 3u
+#define WORK_TREE_NODES 4u
+#define WORK_KINDS 5u
 
 #ifndef COUNT_WORK
 #define COUNT_WORK 0
@@ -20,13 +22,13 @@
 struct WorkCounter {
     uint low, high;
 };
-layout(std430, binding = BINDING_WORK) buffer WorkBuffer { WorkCounter work_total_[4]; };
-uvec4 work_ = uvec4(0u);
+layout(std430, binding = BINDING_WORK) buffer WorkBuffer { WorkCounter work_total_[WORK_KINDS]; };
+uint work_[WORK_KINDS] = uint[WORK_KINDS](0u, 0u, 0u, 0u, 0u);
 
 void count_work(uint kind, uint n) { work_[kind] += n; }
 
 void flush_work() {
-    for (uint kind = 0u; kind < 4u; ++kind) {
+    for (uint kind = 0u; kind < WORK_KINDS; ++kind) {
         uint n = work_[kind];
         if (n == 0u) continue;
         uint before = atomicAdd(work_total_[kind].low, n);

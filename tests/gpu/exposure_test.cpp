@@ -13,8 +13,9 @@
 namespace tyndall {
 namespace {
 
-const std::vector<std::string> lit_techniques{"ray_march",      "froxel",       "billboards",    "particles",
-                                              "shaft_geometry", "analytic_fog", "radial_shafts", "reference"};
+const std::vector<std::string> lit_techniques{"ray_march",     "froxel",         "billboards",
+                                              "particles",     "shaft_geometry", "analytic_fog",
+                                              "radial_shafts", "epipolar",       "reference"};
 
 class Exposure : public GlTest {
   protected:

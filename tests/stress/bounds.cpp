@@ -227,7 +227,7 @@ Bound scattering_bound(const StressFrame& frame, const Truth& truth, const Truth
     const double local = local_depth(truth, pixel.ray, pixel.open.distance);
     Bound bound{4e-3, 2e-3};
     if (frame.options.render.ambient > 0) bound.relative += 0.02;
-    const bool march = technique == "ray_march", froxel = technique == "froxel";
+    const bool march = technique == "ray_march" || technique == "epipolar", froxel = technique == "froxel";
     if (march || froxel || technique == "shaft_geometry") {
         const double end = visible_end(frame, truth, pixel), varies = folds(frame, truth, pixel, end);
         const bool tail = end == marched(frame, pixel) && pixel.open.distance > v.march.max_distance;

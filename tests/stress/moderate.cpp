@@ -21,12 +21,15 @@ constexpr std::array<Turn, moderate_turns> turns{{{"ray_march", false, false},
                                                   {"particles", true, false},
                                                   {"shaft_geometry", true, true},
                                                   {"analytic_fog", true, false},
-                                                  {"radial_shafts", false, false}}};
+                                                  {"radial_shafts", false, false},
+                                                  {"epipolar", false, true},
+                                                  {"epipolar", true, true}}};
 
 std::vector<Feature> features(const std::string& technique) {
     using enum Feature;
     if (technique == "reference" || technique == "analytic_fog") return {plain};
     if (technique == "froxel" || technique == "particles") return {plain, history, low_resolution};
+    if (technique == "epipolar") return {plain, low_resolution};
     return {plain, filter, history, low_resolution};
 }
 

@@ -11,6 +11,7 @@
 #include "shaders/volumetrics/light/light_transmittance.glsl"
 #include "shaders/volumetrics/frame/ray.glsl"
 #include "shaders/volumetrics/media/scattering.glsl"
+#include "shaders/volumetrics/light/visibility.glsl"
 
 // 1: visibility is kept from frame to frame (froxel_history.comp), so that light is wanted with and without it, and it
 // alone is sampled beside the ray.
@@ -18,20 +19,11 @@
 #define FROXEL_HISTORY 0
 #endif
 
-// Where visibility is sampled for a point of the ray.
-vec3 visibility_point(Ray ray, float t) { return ray.origin + ray.visibility_direction * t; }
-
 float lamp_inverse_range(GpuLight light) {
     return light.position_range.w > 0.0 ? 1.0 / light.position_range.w : 0.0;
 }
 
 bool is_spot(GpuLight light) { return int(light.direction_type.w) == LIGHT_SPOT; }
-
-float lamp_visibility(uint index, GpuLight light, vec3 point) {
-    if (light.cone_shadow.z < 0.0) return 1.0;
-    count_work(WORK_SHADOW_LOOKUPS, 1u);
-    return light_visibility(index, light, point);
-}
 
 // A segment of the ray, and its medium apart from the height media.
 struct Segment {
@@ -217,13 +209,7 @@ vec3 lamp_over_segment(Ray ray, Segment segment, FoundLamp found, inout vec3 uns
                                             light.cone_shadow.xy);
     }
 
-    // Over all offsets the point is distributed as the light is: in the inverse square (Kulla and Fajardo 2012), and in
-    // what else varies by its four nodes.
-    float a = reach.begin - lamp.t_closest;
-    float span = reach.end - reach.begin;
-    LampIntegral integral = lamp_integral(a, a + span, span, lamp.h, radius);
-    float advance = clamp(lamp_advance(integral, lamp_segment_place(parts, segment.offset) * integral.total), 0.0, span);
-    float visible = lamp_visibility(found.index, light, visibility_point(ray, reach.begin + advance));
+    float visible = lamp_share(ray, found.index, light, lamp, vec2(reach.begin, reach.end), parts, segment.offset);
     unshadowed += light.intensity_radius.rgb * sum;
     return visible * light.intensity_radius.rgb * sum;
 }

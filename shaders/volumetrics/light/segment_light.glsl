@@ -62,9 +62,7 @@ SegmentLight segment_light_parts(Ray ray, Segment segment, Medium m, Optics opti
     // Visibility is sampled where that share of the light has been gathered.
     SunSegment sun = sun_segment(ray, segment.begin, segment.end, optics, sun_front);
     float fall = sunlight_fall(ray, segment, sun.x);
-    float t = segment.begin + path_length * equal_transmittance(segment.offset, fall);
-    count_work(WORK_SHADOW_LOOKUPS, 1u);
-    light.sun_visibility = sun_visibility(visibility_point(ray, t), t * ray.forward_cosine);
+    light.sun_visibility = sun_share(ray, segment.begin, segment.end, fall, segment.offset);
     light.sun = sun_scattering(ray, m, sun.effective_length) * local_sun_transmittance(ray, segment, fall);
 #endif
 

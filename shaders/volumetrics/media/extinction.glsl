@@ -32,4 +32,11 @@ float equal_transmittance(float xi, float x) {
     return clamp(-log(1.0 - xi * (1.0 - exp(-limited))) / limited, 0.0, 1.0);
 }
 
+// The inverse: the share gathered before u.
+float share_before(float u, float x) {
+    if (abs(x) < 0.01) return u;
+    float limited = clamp(x, -80.0, 80.0);
+    return (1.0 - exp(-limited * u)) / (1.0 - exp(-limited));
+}
+
 #endif

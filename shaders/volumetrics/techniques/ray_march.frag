@@ -2,7 +2,7 @@
 // Along a pixel's view ray, per segment [a, b]:
 //     L += T(0,a) int_a^b T(a,t) (sigma_s sum_i p V_i T_i E_i + e) dt,    T(0,b) = T(0,a) exp(-optical depth of [a,b])
 // Media, transmittances and the inverse square of lamps are integrated in closed form, or nearly; only visibility is sampled,
-// once a segment, at an offset that differs from pixel to pixel.
+// once a segment, at an offset that differs from pixel to pixel; EPIPOLAR: without noise, by the trees of epipolar.glsl.
 //
 // PARTS: the unshadowed light of sun and lamps, without noise, and the visible share of it are stored apart
 // (relight.frag), so that only the latter is filtered.
@@ -11,6 +11,9 @@
 #define LIGHT_VOLUMES (LOCAL_MEDIA > 0)
 #ifndef PARTS
 #define PARTS 0
+#endif
+#ifndef EPIPOLAR
+#define EPIPOLAR 0
 #endif
 #define SUN_APART (PARTS == 1 && HAS_SUN == 1)
 #define LAMPS_APART (PARTS == 1 && LAMPS == 2)
@@ -107,7 +110,7 @@ void add_to(LampPart b, inout LampPart a) {
 }
 #endif
 
-#if HAS_SUN
+#if HAS_SUN && !EPIPOLAR
 // Of the parts of a segment the one in which the sun's visibility is sampled: each with the share of the sunlight that it
 // gathers, in one pass. The parts own one after the other an interval of the offset, and what is left of it after each is
 // the place in the part.
@@ -139,58 +142,68 @@ void march_segment(Ray ray, float a, float b, float offset, inout Extinction sun
 #if LAMPS
     LampPart lamps = no_lamp_part(a, offset);
 #endif
-#if HAS_SUN
+#if HAS_SUN && !EPIPOLAR
     vec3 sun = vec3(0.0);
     SunSample place = SunSample(1.0 - offset, 0.0, a, b, 0.0);
 #endif
     float begin = a;
-    do {
-        float end = next_cut(begin, b);
-        float path_length = end - begin;
-        Medium m = global_medium(ray.origin.y + ray.direction.y * begin, ray.direction.y, path_length);
-        count_work(WORK_MEDIUM_SAMPLES, 1u);
-        vec3 global_sigma_s = m.sigma_s;
-        vec3 global_depth = m.optical_depth;
-        add_local_media(ray, begin, end, m);
-        vec3 local_sigma_s = m.sigma_s - global_sigma_s;
-        vec3 local_depth = m.optical_depth - global_depth;
-        Optics optics = medium_optics(m, path_length);
-        march.radiance += march.transmittance * ((m.sigma_s * ambient + m.emission) * optics.effective_length);
+    // One round more than there are parts, so that add_lamps is inlined once.
+    for (bool more = true; more;) {
+        more = begin < b;
+        bool first = begin == a;
+#if LAMPS
+        bool joins = false;
+        LampPart part = lamps;
+#endif
+        if (more) {
+            float end = next_cut(begin, b);
+            float path_length = end - begin;
+            Medium m = global_medium(ray.origin.y + ray.direction.y * begin, ray.direction.y, path_length);
+            count_work(WORK_MEDIUM_SAMPLES, 1u);
+            vec3 global_sigma_s = m.sigma_s;
+            vec3 global_depth = m.optical_depth;
+            add_local_media(ray, begin, end, m);
+            vec3 local_sigma_s = m.sigma_s - global_sigma_s;
+            vec3 local_depth = m.optical_depth - global_depth;
+            Optics optics = medium_optics(m, path_length);
+            march.radiance += march.transmittance * ((m.sigma_s * ambient + m.emission) * optics.effective_length);
 #if HAS_SUN
-        SunSegment light = sun_part(ray, begin, end, optics, sun_front);
-        vec3 gathered = march.transmittance * sun_scattering(ray, m, light.effective_length);
-        Segment segment = Segment(begin, end, offset, m.anisotropy, volumetrics.homogeneous_sigma_s.rgb + local_sigma_s,
-                                  vec3(0.0));
-        offer(begin, end, mean_channel(min(gathered, 1.0e30)), sunlight_fall(ray, segment, light.x), place);
-        sun += gathered;
+            SunSegment light = sun_part(ray, begin, end, optics, sun_front);
+            vec3 gathered = march.transmittance * sun_scattering(ray, m, light.effective_length);
+            Segment segment = Segment(begin, end, offset, m.anisotropy,
+                                      volumetrics.homogeneous_sigma_s.rgb + local_sigma_s, vec3(0.0));
+            float fall = sunlight_fall(ray, segment, light.x);
+            sun_light.whole += gathered;
+#if EPIPOLAR
+            sun_light.visible += sun_share(ray, begin, end, fall, offset) * gathered;
+#else
+            offer(begin, end, mean_channel(min(gathered, 1.0e30)), fall, place);
+            sun += gathered;
+#endif
 #endif
 #if LAMPS
-        LampPart part;
-        part.segment = Segment(begin, end, offset, m.anisotropy,
-                               (volumetrics.homogeneous_sigma_s.rgb + local_sigma_s) * path_length,
-                               volumetrics.homogeneous_sigma_t.rgb * path_length + local_depth);
-        part.medium = m;
-        part.medium.sigma_s *= path_length;
-        part.medium.sigma_s_rayleigh *= path_length;
-        part.transmittance = march.transmittance;
-        if (begin > a && misplaced(lamps, part) <= MOST_MISPLACED) {
-            add_to(part, lamps);
-        } else {
-            if (begin > a) add_lamps(ray, lamps);
-            lamps = part;
+            part.segment = Segment(begin, end, offset, m.anisotropy,
+                                   (volumetrics.homogeneous_sigma_s.rgb + local_sigma_s) * path_length,
+                                   volumetrics.homogeneous_sigma_t.rgb * path_length + local_depth);
+            part.medium = m;
+            part.medium.sigma_s *= path_length;
+            part.medium.sigma_s_rayleigh *= path_length;
+            part.transmittance = march.transmittance;
+            joins = misplaced(lamps, part) <= MOST_MISPLACED;
+#endif
+            march.transmittance *= optics.transmittance;
+            begin = end;
         }
-#endif
-        march.transmittance *= optics.transmittance;
-        begin = end;
-    } while (begin < b);
 #if LAMPS
-    add_lamps(ray, lamps);
+        if (!first && !joins) add_lamps(ray, lamps);
+        if (!first && joins)
+            add_to(part, lamps);
+        else
+            lamps = part;
 #endif
-#if HAS_SUN
-    float t = mix(place.begin, place.end, equal_transmittance(1.0 - place.rest, place.fall));
-    count_work(WORK_SHADOW_LOOKUPS, 1u);
-    sun_light.visible += sun_visibility(visibility_point(ray, t), t * ray.forward_cosine) * sun;
-    sun_light.whole += sun;
+    }
+#if HAS_SUN && !EPIPOLAR
+    sun_light.visible += sun_share(ray, place.begin, place.end, place.fall, 1.0 - place.rest) * sun;
 #endif
 }
 #else
@@ -232,10 +245,17 @@ void main() {
         end = min(end, media_span.y);
     }
 #endif
+#if EPIPOLAR
+    const float offset = 0.5;
+#else
     float offset = noise_offset(uvec2(gl_FragCoord.xy));
+#endif
 
     March march = March(vec3(0.0), Extinction(1.0));
     Extinction sun_front = Extinction(0.0);
+#if EPIPOLAR && HAS_SUN
+    sun_epipolar_ray = epipolar_ray(0, ray.direction);
+#endif
 #if HAS_SUN
     sun_front = to_extinction(sun_optical_depth(ray.origin.y + ray.direction.y * begin, -sun_direction()));
 #if LOCAL_MEDIA == 2
@@ -245,19 +265,22 @@ void main() {
     float a = begin;
     float step_length = (end - a) * volumetrics.first_step;
     uint steps = a < end ? volumetrics.steps : 0u;
-    for (uint i = 0u; i < steps && largest(march.transmittance) > OPAQUE; ++i) {
+    for (uint i = 0u; largest(march.transmittance) > OPAQUE; ++i) {
         float b = i + 1u == steps ? end : min(a + step_length, end);
+        if (i >= steps) {
+#if LOCAL_MEDIA == 2
+            // Local media behind the march are one segment more.
+            if (i > steps || media_span.y <= max(a, end)) break;
+            end = media_span.y;
+            b = end;
+#else
+            break;
+#endif
+        }
         march_segment(ray, a, b, offset, sun_front, march);
         step_length *= volumetrics.step_growth;
         a = b;
     }
-#if LOCAL_MEDIA == 2
-    // Local media behind the march are one segment more.
-    if (media_span.y > max(a, end) && largest(march.transmittance) > OPAQUE) {
-        end = media_span.y;
-        march_segment(ray, a, end, offset, sun_front, march);
-    }
-#endif
     if (volumetrics.has_global != 0u && surface > end && end >= volumetrics.max_distance)
         march_tail(ray, end, surface, is_background(depth), ambient, sun_front, march);
 #if LOCAL_MEDIA == 2 && PARTS == 0

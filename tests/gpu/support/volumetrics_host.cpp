@@ -63,6 +63,23 @@ float light_visibility(uint index, GpuLight light, vec3 world) {
 }
 )";
 
+constexpr const char* shadow_maps_glsl = R"(
+#include "shaders/interface/shadows.glsl"
+const float NO_OCCLUDER = 1.0e9;
+float sun_occluder(vec3 world) {
+    vec3 d = stub_sun_direction.xyz;
+    vec2 cross_place = world.xz - d.xz / d.y * (world.y - 4.0);
+    vec3 under = vec3(cross_place.x, 4.0, cross_place.y) + d * 1.0e-3;
+    return sun_visibility(under, 0.0) > 0.5 ? -NO_OCCLUDER : (world.y - 4.0) / d.y;
+}
+float light_occluder(uint index, GpuLight light, vec3 world) {
+    vec3 v = world - light.position_range.xyz;
+    if (stub_options.z != 2.0) return light_visibility(index, light, world) > 0.5 ? -NO_OCCLUDER : length(v);
+    float s = (-6.0 - light.position_range.z) / v.z;
+    return s > 0.0 && light.position_range.x + s * v.x < 0.0 ? length(v) * (1.0 - s) : -NO_OCCLUDER;
+}
+)";
+
 struct StubBlock {
     glm::vec4 sun_direction, sun_illuminance, ambient, options;
 };
@@ -92,6 +109,7 @@ ShaderFolder::ShaderFolder() {
         fs::copy(data_root() / "shaders" / name, path_ / "shaders" / name, fs::copy_options::recursive);
     write_text(path_ / "shaders/interface/lights.glsl", lights_glsl);
     write_text(path_ / "shaders/interface/shadows.glsl", shadows_glsl);
+    write_text(path_ / "shaders/interface/shadow_maps.glsl", shadow_maps_glsl);
 }
 
 ShaderFolder::~ShaderFolder() {
@@ -114,7 +132,7 @@ glm::mat4 StubHost::projection() const {
 glm::vec3 StubHost::ray(int x, int y) const {
     const glm::vec2 ndc = 2.0F * (glm::vec2(x, y) + 0.5F) / glm::vec2(size) - 1.0F;
     const glm::mat4 p = projection();
-    return glm::normalize(glm::vec3(ndc.x / p[0][0], ndc.y / p[1][1], -1));
+    return rotation * glm::normalize(glm::vec3(ndc.x / p[0][0], ndc.y / p[1][1], -1));
 }
 
 void StubHost::upload() {
@@ -147,7 +165,7 @@ void StubHost::upload() {
 Inputs StubHost::inputs(PassList& passes) {
     upload();
     Inputs in;
-    in.view = glm::translate(glm::mat4(1), -eye);
+    in.view = glm::translate(glm::mat4(glm::transpose(rotation)), -eye);
     in.projection = projection();
     in.eye = eye;
     in.znear = znear;
@@ -174,6 +192,7 @@ Inputs StubHost::inputs(PassList& passes) {
         ranges_.bind(GL_SHADER_STORAGE_BUFFER, BINDING_CLUSTERS);
         list_.bind(GL_SHADER_STORAGE_BUFFER, BINDING_CLUSTER_LIGHTS);
     };
+    in.has_shadow_maps = has_shadow_maps;
     in.count_work = count_work;
     in.frame_index = frame_index;
     return in;

@@ -50,11 +50,12 @@ struct Frame {
 
 class StubHost {
   public:
-    /// A camera at `eye` that looks along -Z; one pixel is the centre ray.
+    /// A camera at `eye` that looks along -Z of `rotation`; one pixel is the centre ray.
     StubHost();
 
     glm::ivec2 size{1, 1};
     glm::vec3 eye{0};
+    glm::mat3 rotation{1};  ///< of the camera: what its axes are in the world
     float vertical_fov = 1.0F;
     float znear = 0.1F;
     std::function<float(int x, int y)> view_depth = [](int, int) { return 10.0F; };  ///< y up; `sky` for none
@@ -74,6 +75,7 @@ class StubHost {
     /// 0: nothing casts a shadow. 1: a fence in the plane y = 4 shadows the sun, one around each lamp the lamp. 2:
     /// the half x < 0 of the plane z = -6 shadows lamps. 3: the half x < 0 of the plane y = 4 shadows the sun.
     int shadows = 0;
+    bool has_shadow_maps = true;
     std::uint32_t frame_index = 0;
     bool count_work = false;
 

@@ -113,6 +113,12 @@ struct ShaftGeometrySettings {
     int segments = 6;    ///< 1 … 64 a ray
     int lamp_parts = 4;  ///< 1 … 64 a lamp and ray
 };
+struct EpipolarSettings {
+    float spacing = 1;       ///< px, 0.25 … 16
+    int cells = 1024;        ///< of the sun: a power of two, 64 … 2048
+    float lamp_spacing = 4;  ///< px, 0.25 … 64
+    int lamp_cells = 128;    ///< a power of two, 16 … 2048
+};
 struct ReferenceSettings {
     int steps = 1024;       ///< 16 … 16384 a ray
     int lamp_samples = 16;  ///< 1 … 64 a lamp and 16 steps
@@ -134,6 +140,7 @@ struct Settings {
     AnalyticFogSettings analytic_fog = {};
     RadialShaftSettings radial_shafts = {};
     ShaftGeometrySettings shaft_geometry = {};
+    EpipolarSettings epipolar = {};
     ReferenceSettings reference = {};
 };
 

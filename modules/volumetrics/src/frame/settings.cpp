@@ -310,6 +310,24 @@ SettingsTable& growing_settings_table() {
                      {"shaft_lamp_parts", "Shaft lamp parts",
                       "Technique shaft_geometry: closed forms, each with its own shadow, per lamp and ray."},
                      1, 64, Effect::uniform, Scale::logarithmic)
+            .real(in(&S::epipolar, &EpipolarSettings::spacing),
+                  {"epipolar_spacing", "Epipolar spacing",
+                   "Technique epipolar: distance of the sun's lines where they are widest apart in the picture.",
+                   "px"},
+                  0.25, 16, Scale::logarithmic)
+            .integer_of(in(&S::epipolar, &EpipolarSettings::cells),
+                        {"epipolar_cells", "Epipolar cells",
+                         "Technique epipolar: sun rays along each line; edges of shafts are as fine as a cell."},
+                        {64, 128, 256, 512, 1024, 2048}, Effect::resource)
+            .real(in(&S::epipolar, &EpipolarSettings::lamp_spacing),
+                  {"epipolar_lamp_spacing", "Epipolar lamp spacing",
+                   "Technique epipolar: distance of a lamp's lines where they are widest apart in what it lights.",
+                   "px"},
+                  0.25, 64, Scale::logarithmic)
+            .integer_of(in(&S::epipolar, &EpipolarSettings::lamp_cells),
+                        {"epipolar_lamp_cells", "Epipolar lamp cells",
+                         "Technique epipolar: a lamp's rays along each line, over half a turn."},
+                        {16, 32, 64, 128, 256, 512, 1024, 2048}, Effect::resource)
             .integer(in(&S::reference, &ReferenceSettings::steps),
                      {"reference_steps", "Reference steps",
                       "Samples per ray of the technique reference, where its error falls in proportion; taken as a "

@@ -27,8 +27,8 @@ Techniques& techniques() {
         Techniques own;
         own.add(
             {.name = "off", .help = "No light in media; costs nothing.", .settings = "", .passes = {}, .add = {}});
-        for (const auto make :
-             {ray_march, froxel, billboards, particles, shaft_geometry, analytic_fog, radial_shafts, reference})
+        for (const auto make : {ray_march, froxel, billboards, particles, shaft_geometry, analytic_fog,
+                                radial_shafts, epipolar, reference})
             own.add(make());
         return own;
     }();

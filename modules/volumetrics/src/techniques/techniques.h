@@ -12,6 +12,7 @@ namespace tyndall::volumetrics {
 [[nodiscard]] TechniqueDesc shaft_geometry();
 [[nodiscard]] TechniqueDesc analytic_fog();
 [[nodiscard]] TechniqueDesc radial_shafts();
+[[nodiscard]] TechniqueDesc epipolar();
 [[nodiscard]] TechniqueDesc reference();
 
 }  // namespace tyndall::volumetrics

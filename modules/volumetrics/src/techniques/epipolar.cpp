@@ -1,0 +1,112 @@
+#include "light/epipolar.h"
+
+#include <algorithm>
+
+#include "engine/gl/texture.h"
+#include "frame/resources.h"
+#include "media/noise_volume.h"
+#include "techniques/techniques.h"
+#include "volumetrics/frame.h"
+
+// The march of ray_march.frag without noise: what a light reaches of each segment comes from trees over rectified
+// shadow maps (shaders/volumetrics/light/epipolar.glsl), so that segments are no finer than media ask for.
+
+namespace tyndall::volumetrics {
+namespace {
+
+const ProgramDesc lines_program{.name = "volumetrics/epipolar_lines",
+                                .stages = {{GL_COMPUTE_SHADER, "shaders/volumetrics/light/epipolar_lines.comp"}},
+                                .axes = {{"COUNT_WORK", {0, 1}}},
+                                .valid = {}};
+const ProgramRegistry::Registration lines_registration(lines_program);
+
+bool is_valid(const Permutation& p) {
+    return p.at("HEIGHT_MEDIA") == MAX_HEIGHT_MEDIA || p.at("LOCAL_MEDIA") == 1;
+}
+
+const ProgramDesc program{.name = "volumetrics/epipolar",
+                          .stages = {{GL_VERTEX_SHADER, "shaders/volumetrics/techniques/view_ray.vert"},
+                                     {GL_FRAGMENT_SHADER, "shaders/volumetrics/techniques/ray_march.frag"}},
+                          .axes = {{"EPIPOLAR", {1}},
+                                   {"HEIGHT_MEDIA", {0, MAX_HEIGHT_MEDIA}},
+                                   {"LOCAL_MEDIA", {1, 2}},  // 1: none is in view
+                                   {"HAS_SUN", {0, 1}},
+                                   {"LAMPS", {0, 2}},
+                                   {"CHROMATIC", {0, 1}},
+                                   {"COUNT_WORK", {0, 1}}},
+                          .valid = is_valid};
+const ProgramRegistry::Registration registration(program);
+
+constexpr int row_of_nodes = 4096;  // EPIPOLAR_ROW_BITS
+
+/// The table of lights, which the CPU writes.
+struct KeptTable : Kept {
+    gl::Texture texture;
+    [[nodiscard]] std::size_t bytes() const override { return texture ? gl::byte_size(texture.desc()) : 0; }
+};
+
+TextureRef upload_table(Frame& frame, const EpipolarPlan& plan) {
+    const std::vector<glm::vec4> texels = plan.table();
+    const gl::TextureDesc desc{.format = GL_RGBA32F, .size = {3, static_cast<int>(texels.size() / 3), 1}};
+    gl::Texture& texture = frame.kept<KeptTable>().texture;
+    if (!texture || texture.desc() != desc) texture = gl::Texture(desc, "volumetrics epipolar lights");
+    texture.upload(0, GL_RGBA, GL_FLOAT, texels.data());
+    return frame.passes.import("volumetrics/epipolar_lights", texture);
+}
+
+TextureRef add_lines(Frame& frame, const EpipolarPlan& plan, TextureRef table) {
+    const int rows = std::max((plan.nodes + row_of_nodes - 1) / row_of_nodes, 1);
+    TextureRef nodes =
+        frame.passes.create("volumetrics/epipolar_nodes", {.format = GL_RG32F, .size = {row_of_nodes, rows, 1}});
+    const gl::Program& lines = frame.program(lines_program);
+    frame.add({.name = "volumetrics/epipolar_lines",
+               .program = lines,
+               .sources = {{table}},
+               .images = {{&nodes}},
+               .lit = true,
+               .draw = [&lines, lights = plan.lights] {
+                   for (const EpipolarLines& light : lights) {
+                       lines.set("row", static_cast<int>(light.row));
+                       glDispatchCompute(static_cast<GLuint>(light.lines), 1, 1);
+                   }
+               }});
+    return nodes;
+}
+
+Estimate add(Frame& frame) {
+    if (!frame.inputs.has_shadow_maps) {
+        for (const char* name : {"volumetrics/epipolar_lines", "volumetrics/epipolar"})
+            frame.skip(name, "the host has no shaders/interface/shadow_maps.glsl");
+        return {};
+    }
+    const EpipolarPlan plan = plan_epipolar(frame.inputs, frame.settings, frame.size);
+    const TextureRef table = upload_table(frame, plan);
+    const TextureRef nodes = add_lines(frame, plan, table);
+    Estimate estimate = frame.create_estimate();
+    const bool local = !frame.media.local.empty();
+    const bool heights = local || height_media_axis(frame.media) > 0;
+    frame.add({.name = "volumetrics/epipolar",
+               .program = frame.program(program, {{"EPIPOLAR", 1},
+                                                  {"HEIGHT_MEDIA", heights ? MAX_HEIGHT_MEDIA : 0},
+                                                  {"LOCAL_MEDIA", local ? 2 : 1},
+                                                  {"LAMPS", frame.inputs.has_lamps ? 2 : 0}}),
+               .sources = {{frame.depth}, {noise_volume(frame), true}, {table}, {nodes}},
+               .targets = {&estimate.scattering, &estimate.transmittance},
+               .lit = true,
+               .light_volumes = true,
+               .local_media = true});
+    return estimate;
+}
+
+}  // namespace
+
+TechniqueDesc epipolar() {
+    return {.name = "epipolar",
+            .help = "Marches with shares of light from min/max trees along epipolar lines: sharp, without noise.",
+            .settings = "epipolar_",
+            .passes = {"volumetrics/epipolar_lines", "volumetrics/noise_volume", "volumetrics/epipolar"},
+            .traits = {.sampling = Sampling::exact, .any_resolution = true},
+            .add = add};
+}
+
+}  // namespace tyndall::volumetrics

@@ -1,0 +1,48 @@
+// Which parts of a view ray a light reaches, from rectified shadow maps with min/max trees: Chen, Baran, Durand and Jarosz,
+// "Real-Time Volumetric Shadows using 1D Min-Max Mipmaps" (2011), along epipolar lines.
+//
+// A plane through eye and light holds view rays and light rays. Each of its light rays ends at its first occluder; as one
+// follows it from the light to there, its angle to the axis from the eye towards the light, as seen from the eye, rises.
+// So a view ray at the angle a is lit where it crosses a light ray if a <= the angle at which that one ends, or
+//     cot(a) >= (distance along the axis) / (distance from the axis) of that end, both from the eye:
+// one slope for the whole view ray against one stored number for each light ray. A line of the map holds the light rays
+// ("cells") of one half plane in the order in which view rays cross them, and a tree of their smallest and largest slopes.
+// A view ray takes whole nodes where its slope is beyond both.
+//
+// Cells: of a sun, in proportion to log(1 + radius / 2 m) of the light ray's distance from the axis; of a lamp, in
+// proportion to its angle at the lamp to the direction of the eye, which for what a view ray gathers of inverse squares
+// are equal shares.
+#ifndef VOLUMETRICS_EPIPOLAR_GLSL
+#define VOLUMETRICS_EPIPOLAR_GLSL
+
+#include "shaders/lib/work.glsl"
+
+const float EPIPOLAR_RADIUS = 2.0;        // m
+const float EPIPOLAR_LARGEST = 1.0e9;     // slope
+const int EPIPOLAR_ROW_BITS = 12;         // 4096 nodes a row of the texture
+const float EPIPOLAR_TWO_PI = 6.28318531;
+
+// The lines of one light (modules/volumetrics/src/light/epipolar.h): row 0 of the sun, row 1 + i of lamp i.
+struct EpipolarLines {
+    vec3 axis;         // unit, from the eye to the light
+    float distance;    // of the lamp, m; 0: parallel light
+    vec3 first;        // unit, across the axis: the angle 0
+    float lines_per_radian;
+    float cells_per_unit;  // of log(1 + radius / 2 m), or of radians
+    int lines;
+    int cells;         // a line, a power of two; 0: the light has no lines
+    int nodes;         // index of the first line's
+};
+
+EpipolarLines epipolar_lines(sampler2D table, int row) {
+    vec4 a = texelFetch(table, ivec2(0, row), 0);
+    vec4 b = texelFetch(table, ivec2(1, row), 0);
+    vec4 c = texelFetch(table, ivec2(2, row), 0);
+    return EpipolarLines(a.xyz, a.w, b.xyz, b.w, c.x, int(c.y), int(c.z), int(c.w));
+}
+
+ivec2 epipolar_texel(int node) {
+    return ivec2(node & ((1 << EPIPOLAR_ROW_BITS) - 1), node >> EPIPOLAR_ROW_BITS);
+}
+
+#endif

@@ -1,0 +1,78 @@
+// The lines of one light, see epipolar.glsl: one group for each. Of a line of n cells nodes n .. 2n - 1 are its cells and
+// node i has the children 2i and 2i + 1; each holds the smallest and the largest slope.
+#include "shaders/interface/lights.glsl"
+#include "shaders/interface/shadow_maps.glsl"
+#include "shaders/volumetrics/frame/data.glsl"
+#include "shaders/volumetrics/light/epipolar.glsl"
+
+const int MOST_CELLS = 2048;
+const int THREADS = 64;
+layout(local_size_x = THREADS) in;
+layout(rg32f, binding = 0) writeonly uniform image2D nodes;
+layout(binding = 0) uniform sampler2D table;
+uniform int row;
+
+shared vec2 node[MOST_CELLS];
+
+float sun_slope(EpipolarLines lines, vec3 across, float place) {
+    float radius = EPIPOLAR_RADIUS * (exp(place / lines.cells_per_unit) - 1.0);
+    vec3 to_light = lines.axis;
+    vec3 world = volumetrics.eye.xyz + across * radius;
+    float height = row == 0 ? sun_occluder(world) : light_occluder(uint(row - 1), light_at(uint(row - 1)), world);
+    return height / radius;
+}
+
+float lamp_slope(EpipolarLines lines, vec3 across, float place) {
+    float angle = place / lines.cells_per_unit;
+    float cosine = cos(angle);
+    float sine = sin(angle);
+    GpuLight light = light_at(uint(row - 1));
+    vec3 world = light.position_range.xyz + sine * across - cosine * lines.axis;
+    float reach = 1.0 - light_occluder(uint(row - 1), light, world);
+    float range = light.position_range.w > 0.0 ? light.position_range.w : 0.5 * NO_OCCLUDER;
+    if (reach >= range) return -EPIPOLAR_LARGEST;  // wherever a view ray crosses it
+    return (lines.distance - reach * cosine) / max(reach * sine, 1.0e-9);
+}
+
+// Makes a tree of `count` nodes of a level of `level` nodes, which lie `stride` apart in `node` from `first` on; leaves its
+// root at `first`.
+void merge(int root, int first, int count, int stride, int level) {
+    int begin = first / stride;  // of the nodes in their level
+    while (count > 1) {
+        count /= 2;
+        level /= 2;
+        begin /= 2;
+        for (int i = 0; i < count; ++i) {
+            vec2 a = node[first + 2 * i * stride];
+            vec2 b = node[first + (2 * i + 1) * stride];
+            vec2 merged = vec2(min(a.x, b.x), max(a.y, b.y));
+            node[first + i * stride] = merged;
+            imageStore(nodes, epipolar_texel(root + level + begin + i), vec4(merged, 0.0, 0.0));
+        }
+    }
+}
+
+void main() {
+    EpipolarLines lines = epipolar_lines(table, row);
+    int line = int(gl_WorkGroupID.x);
+    int thread = int(gl_LocalInvocationID.x);
+    float angle = (float(line) + 0.5) / lines.lines_per_radian;
+    vec3 across = cos(angle) * lines.first + sin(angle) * cross(lines.axis, lines.first);
+    int root = lines.nodes + line * 2 * lines.cells;
+
+    int part = max(lines.cells / THREADS, 1);  // cells of a thread
+    int parts = lines.cells / part;
+    if (thread < parts) {
+        for (int cell = thread * part; cell < (thread + 1) * part; ++cell) {
+            float place = float(cell) + 0.5;
+            float slope = lines.distance == 0.0 ? sun_slope(lines, across, place) : lamp_slope(lines, across, place);
+            count_work(WORK_SHADOW_LOOKUPS, 1u);
+            node[cell] = vec2(clamp(slope, -EPIPOLAR_LARGEST, EPIPOLAR_LARGEST));
+            imageStore(nodes, epipolar_texel(root + lines.cells + cell), vec4(node[cell], 0.0, 0.0));
+        }
+        merge(root, thread * part, part, 1, lines.cells);
+    }
+    barrier();
+    if (thread == 0) merge(root, 0, parts, part, parts);
+    flush_work();
+}

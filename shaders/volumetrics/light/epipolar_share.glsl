@@ -1,0 +1,96 @@
+// The visible share of what a part of a view ray gathers of a light, from the trees of epipolar.glsl.
+#ifndef VOLUMETRICS_EPIPOLAR_SHARE_GLSL
+#define VOLUMETRICS_EPIPOLAR_SHARE_GLSL
+
+#include "shaders/lib/lamp_segment.glsl"
+#include "shaders/volumetrics/frame/ray.glsl"
+#include "shaders/volumetrics/light/epipolar.glsl"
+#include "shaders/volumetrics/media/extinction.glsl"
+
+layout(binding = 2) uniform sampler2D epipolar_table;
+layout(binding = 3) uniform sampler2D epipolar_nodes;
+
+// A view ray in its half plane.
+struct EpipolarRay {
+    int root;  // index of the line's nodes
+    int cells;
+    float slope;
+    float cosine;  // of the ray's angle to the axis
+    float sine;
+    float distance;
+    float cells_per_unit;
+};
+
+EpipolarRay epipolar_ray(int row, vec3 direction) {
+    EpipolarLines lines = epipolar_lines(epipolar_table, row);
+    float cosine = dot(direction, lines.axis);
+    vec3 across = direction - cosine * lines.axis;
+    float sine = length(across);
+    float angle = atan(dot(across, cross(lines.axis, lines.first)), dot(across, lines.first));
+    if (angle < 0.0) angle += EPIPOLAR_TWO_PI;
+    int line = clamp(int(angle * lines.lines_per_radian), 0, lines.lines - 1);
+    float slope = clamp(cosine / max(sine, 1.0e-9), -EPIPOLAR_LARGEST, EPIPOLAR_LARGEST);
+    return EpipolarRay(lines.nodes + line * 2 * lines.cells, lines.cells, slope, cosine, sine, lines.distance,
+                       lines.cells_per_unit);
+}
+
+// The place among the cells that the ray passes at the distance t, and of parallel light the distance of a place.
+float epipolar_place(EpipolarRay ray, float t) {
+    float units = ray.distance == 0.0 ? log(1.0 + t * ray.sine / EPIPOLAR_RADIUS)
+                                      : atan(t * ray.sine, ray.distance - t * ray.cosine);
+    return min(units * ray.cells_per_unit, float(ray.cells));
+}
+float epipolar_distance(EpipolarRay ray, float place) {
+    return EPIPOLAR_RADIUS * (exp(place / ray.cells_per_unit) - 1.0) / max(ray.sine, 1.0e-9);
+}
+
+// How the light gathered between `begin` and `end` is spread: by exp(-fall) from one to the other, or by the four nodes of
+// a lamp's rule, whose light is `parts`.
+struct Gathering {
+    float begin;
+    float end;
+    float fall;
+    vec4 parts;
+    bool by_parts;
+};
+
+float gathered_before(EpipolarRay ray, Gathering light, float place, vec2 places) {
+    float share = ray.distance == 0.0 ? (epipolar_distance(ray, place) - light.begin) / (light.end - light.begin)
+                                      : (place - places.x) / (places.y - places.x);
+    share = clamp(share, 0.0, 1.0);
+    return light.by_parts ? lamp_segment_share(light.parts, share) : share_before(share, light.fall);
+}
+
+// 0 .. 1. Light gathered is added where visibility begins and taken away where it ends.
+float epipolar_share(EpipolarRay ray, Gathering light) {
+    vec2 places = vec2(epipolar_place(ray, light.begin), epipolar_place(ray, light.end));
+    int begin = min(int(places.x), ray.cells - 1);
+    int last = clamp(int(places.y), begin, ray.cells - 1);
+    int cell = begin;
+    vec2 whole = texelFetch(epipolar_nodes, epipolar_texel(ray.root + 1), 0).xy;
+    count_work(WORK_TREE_NODES, 1u);
+    if (ray.slope >= whole.y) return 1.0;
+    if (ray.slope < whole.x) return 0.0;
+    int level = min(findLSB(cell | ray.cells), findMSB(last - cell + 1));
+    bool lit = false;
+    float share = 0.0;
+    while (cell <= last) {
+        vec2 node = texelFetch(epipolar_nodes, epipolar_texel(ray.root + ((ray.cells + cell) >> level)), 0).xy;
+        count_work(WORK_TREE_NODES, 1u);
+        bool all_lit = ray.slope >= node.y;
+        if (!all_lit && ray.slope >= node.x) {
+            --level;
+            continue;
+        }
+        if (all_lit != lit) {
+            float before = cell == begin ? 0.0 : gathered_before(ray, light, float(cell), places);
+            share += lit ? before : -before;
+            lit = all_lit;
+        }
+        cell += 1 << level;
+        level = min(findLSB(cell | ray.cells), findMSB(last - cell + 1));
+    }
+    return clamp(lit ? share + 1.0 : share, 0.0, 1.0);
+}
+
+#endif

@@ -1,0 +1,64 @@
+// The visible share of the light that a part of a view ray gathers: EPIPOLAR 0 by one lookup, at a point that an offset
+// (0..1) chooses, so that the mean over all offsets is the share; 1 by the trees of epipolar_share.glsl, with no offset.
+#ifndef VOLUMETRICS_VISIBILITY_GLSL
+#define VOLUMETRICS_VISIBILITY_GLSL
+
+#include "shaders/interface/lights.glsl"
+#include "shaders/interface/shadows.glsl"
+#include "shaders/lib/lamp_segment.glsl"
+#include "shaders/lib/work.glsl"
+#include "shaders/volumetrics/frame/ray.glsl"
+#include "shaders/volumetrics/media/extinction.glsl"
+
+#ifndef EPIPOLAR
+#define EPIPOLAR 0
+#endif
+#if EPIPOLAR
+#include "shaders/volumetrics/light/epipolar_share.glsl"
+#endif
+
+// Where visibility is sampled for a point of the ray.
+vec3 visibility_point(Ray ray, float t) { return ray.origin + ray.visibility_direction * t; }
+
+float lamp_visibility(uint index, GpuLight light, vec3 point) {
+    if (light.cone_shadow.z < 0.0) return 1.0;
+    count_work(WORK_SHADOW_LOOKUPS, 1u);
+    return light_visibility(index, light, point);
+}
+
+#if HAS_SUN
+// Of sunlight that falls by exp(-fall) from `begin` to `end`.
+#if EPIPOLAR
+EpipolarRay sun_epipolar_ray = EpipolarRay(0, 1, 0.0, 0.0, 1.0, 0.0, 1.0);  // set once a pixel
+
+float sun_share(Ray ray, float begin, float end, float fall, float offset) {
+    return epipolar_share(sun_epipolar_ray, Gathering(begin, end, fall, vec4(0.0), false));
+}
+#else
+float sun_share(Ray ray, float begin, float end, float fall, float offset) {
+    float t = mix(begin, end, equal_transmittance(offset, fall));
+    count_work(WORK_SHADOW_LOOKUPS, 1u);
+    return sun_visibility(visibility_point(ray, t), t * ray.forward_cosine);
+}
+#endif
+#endif
+
+// Of a lamp's light over [reach.x, reach.y] of the ray, of which each node of lamp_segment has its part.
+float lamp_share(Ray ray, uint index, GpuLight light, LampRay lamp, vec2 reach, vec4 parts, float offset) {
+#if EPIPOLAR
+    if (light.cone_shadow.z < 0.0) return 1.0;
+    EpipolarRay of_lamp = epipolar_ray(1 + int(index), ray.direction);
+    if (of_lamp.cells == 0) return 1.0;  // what is at the eye sees what the eye sees
+    return epipolar_share(of_lamp, Gathering(reach.x, reach.y, 0.0, parts, true));
+#else
+    // Over all offsets the point is distributed as the light is: in the inverse square (Kulla and Fajardo 2012), and in
+    // what else varies by its four nodes.
+    float a = reach.x - lamp.t_closest;
+    float span = reach.y - reach.x;
+    LampIntegral integral = lamp_integral(a, a + span, span, lamp.h, light.intensity_radius.w);
+    float advance = clamp(lamp_advance(integral, lamp_segment_place(parts, offset) * integral.total), 0.0, span);
+    return lamp_visibility(index, light, visibility_point(ray, reach.x + advance));
+#endif
+}
+
+#endif
