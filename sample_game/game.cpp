@@ -66,6 +66,7 @@ class Game {
           player_(session.scene),
           logic_(session.scene),
           ui_(*session.shaders),
+          screen_(*session.shaders),
           scale_(options.scale) {
         session.timer->set_mode(session.timer_mode());
         say(options.told.empty() ? help : options.told + "\n" + help, help_seconds);
