@@ -29,6 +29,7 @@ struct Part {
 /// A pass belongs to the first that has it.
 const std::vector<Part> volumetric_parts{{"Media injection", {"volumetrics/inject_media"}},
                                          {"Ray march", {"volumetrics/march"}},
+                                         {"Froxels", {"volumetrics/froxel"}},
                                          {"Filter", {"volumetrics/filter"}},
                                          {"Composite", {"volumetrics/composite"}},
                                          {"Other volumetrics", {volumetrics}}};

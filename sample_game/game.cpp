@@ -19,7 +19,9 @@
 #include "engine/core/output_files.h"
 #include "engine/platform/frame_clock.h"
 #include "sample_game/level_logic.h"
+#include "sample_game/play_choice.h"
 #include "sample_game/player.h"
+#include "sample_game/screen.h"
 #include "sample_game/stats_json.h"
 #include "sample_game/ui/debug_ui.h"
 #include "volumetrics/technique.h"
@@ -37,16 +39,17 @@ constexpr const char* help =
 
 const std::array<std::string, 7> places{"LocalPM", "Close", "LocalLights", "Sun", "Depth", "Balance", "Glass"};
 
-/// Real seconds since the last call, for what people read; 0 at first.
+/// Real seconds since the last call, for what people read; 0 at first, for the first frame builds shaders.
 class Stopwatch {
   public:
     double lap() {
         const auto now = std::chrono::steady_clock::now();
-        return std::chrono::duration<double>(now - std::exchange(last_, now)).count();
+        const auto last = std::exchange(last_, now);
+        return last ? std::chrono::duration<double>(now - *last).count() : 0;
     }
 
   private:
-    std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+    std::optional<std::chrono::steady_clock::time_point> last_;
 };
 
 /// The first of tyndall-001.png, tyndall-002.png … that is not there yet.
@@ -62,9 +65,11 @@ class Game {
           options_(options),
           player_(session.scene),
           logic_(session.scene),
-          ui_(*session.shaders) {
+          ui_(*session.shaders),
+          screen_(*session.shaders),
+          scale_(options.scale) {
         session.timer->set_mode(session.timer_mode());
-        say(help, help_seconds);
+        say(options.told.empty() ? help : options.told + "\n" + help, help_seconds);
     }
 
     void frame(double dt) {
@@ -72,7 +77,8 @@ class Game {
         const Input& input = context.input();
         context.poll();
         context.input().keys_pressed |= std::exchange(early_keys_, {});
-        session_.size = glm::max(context.framebuffer_size(), glm::ivec2(1));
+        const glm::ivec2 window = glm::max(context.framebuffer_size(), glm::ivec2(1));
+        session_.size = scaled_size(window, scale_);
         keys(input);
         pointer(input);
         if (player_.update(ui_.wants_keyboard() ? Input{} : input, dt, captured_))
@@ -81,18 +87,21 @@ class Game {
         time_ += dt;
         session_.shaders->reload_changed();
         animate(session_.scene, time_);
-        const float aspect = static_cast<float>(session_.size.x) / static_cast<float>(session_.size.y);
+        const float aspect = static_cast<float>(window.x) / static_cast<float>(window.y);
         session_.draw(make_view(player_.camera_to_world(), game_yfov, game_znear, aspect), time_);
+        screen_.show(*session_.renderer, window);
         if (screenshot_requested_) screenshot();
 
         const double seconds = stopwatch_.lap();
         message_seconds_left_ -= seconds;
         frame_ms_ = frame_ms_ == 0 ? seconds * 1e3 : frame_ms_ + (seconds * 1e3 - frame_ms_) * 0.1;
         DebugUi::Hud hud{where(), frame_ms_, message_seconds_left_ > 0 ? message_ : std::string{}};
-        const DebugUi::Requests requests = ui_.frame(session_, logic_, hud, dt, !captured_);
+        const DebugUi::Requests requests = ui_.frame(session_, logic_, hud, screen_, scale_, dt, !captured_);
         screenshot_requested_ = requests.screenshot;
-        context.present(session_.renderer->display_framebuffer(), session_.renderer->size());
+        context.present(screen_.framebuffer(), screen_.size());
     }
+
+    [[nodiscard]] const Screen& screen() const { return screen_; }
 
     [[nodiscard]] std::string stats() const {
         const glm::vec3 eye = player_.eye(), direction = player_.direction();
@@ -101,6 +110,7 @@ class Game {
                            {"direction", {direction.x, direction.y, direction.z}},
                            {"flying", player_.flying()},
                            {"on_ground", player_.on_ground()}};
+        stats["window"] = {screen_.size().x, screen_.size().y};
         stats["gl_messages"] = debug_messages().count;
         return stats.dump(2) + "\n";
     }
@@ -184,7 +194,7 @@ class Game {
             }
         };
         if (options_.stats) attempt([&] { write_text(*options_.stats, stats()); });
-        const bool saved = attempt([&] { write_image(name, session_.renderer->read_display()); });
+        const bool saved = attempt([&] { write_image(name, screen_.read()); });
         say((saved ? "saved " + name : "not saved") + problems);
     }
 
@@ -215,6 +225,8 @@ class Game {
     Player player_;
     LevelLogic logic_;
     DebugUi ui_;
+    Screen screen_;
+    float scale_;
     decltype(Input::keys_pressed) early_keys_ = options_.early_keys;
     bool captured_ = false, screenshot_requested_ = false;
     double time_ = 0, message_seconds_left_ = 0, frame_ms_ = 0;
@@ -240,8 +252,7 @@ void play(Session& session, const GameOptions& options) {
         game.frame(clock.tick());
     OutputFiles files;
     if (options.stats) files.add(*options.stats, game.stats());
-    if (options.screenshot)
-        files.add(*options.screenshot, encode_image(*options.screenshot, session.renderer->read_display()));
+    if (options.screenshot) files.add(*options.screenshot, encode_image(*options.screenshot, game.screen().read()));
     files.commit();
 }
 

@@ -8,6 +8,8 @@
 namespace tyndall {
 
 struct GameOptions {
+    float scale = 1;                                  ///< of the scene: PlayChoice
+    std::string told;                                 ///< shown at first: PlayChoice
     int frames = 0;                                   ///< quit after so many; 0: when the window is closed
     std::optional<std::filesystem::path> screenshot;  ///< taken of the last frame, with what is on screen
     std::optional<std::filesystem::path> stats;       ///< JSON, written at each F2 screenshot and at the end

@@ -88,6 +88,7 @@ class EglContext final : public GlContext {
 
     [[nodiscard]] ContextKind kind() const override { return ContextKind::egl; }
     void present(unsigned, glm::ivec2) override { glFinish(); }
+    void show_window(glm::ivec2 size) override { size_ = size; }
     [[nodiscard]] glm::ivec2 framebuffer_size() const override { return size_; }
 
   protected:

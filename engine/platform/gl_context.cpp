@@ -7,6 +7,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/log.h"
+#include "engine/gl/software_driver.h"
 #include "engine/platform/backends.h"
 
 namespace tyndall {
@@ -49,7 +50,7 @@ Capabilities query_capabilities() {
     c.vendor = gl_string(GL_VENDOR);
     c.renderer = gl_string(GL_RENDERER);
     c.version = gl_string(GL_VERSION);
-    c.software = c.renderer.starts_with("llvmpipe") || c.renderer.starts_with("softpipe");
+    c.software = gl::is_software_driver(c.renderer);
     c.indirect_parameters = GLAD_GL_ARB_indirect_parameters != 0;
     if (GLAD_GL_EXT_texture_filter_anisotropic != 0) {
         glGetFloatv(GL_MAX_TEXTURE_MAX_ANISOTROPY_EXT, &c.max_anisotropy);

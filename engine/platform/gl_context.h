@@ -13,9 +13,9 @@ enum class ContextKind { automatic, egl, osmesa, glfw };
 
 struct ContextRequest {
     ContextKind kind = ContextKind::automatic;
-    glm::ivec2 size{1280, 720};  ///< of the window; ignored headless
+    glm::ivec2 size{1280, 720};  ///< what framebuffer_size() says at first
     std::string title = "Tyndall";
-    bool window = false;  ///< a visible window is wanted
+    bool window = false;  ///< a window is wanted: it is hidden until show_window()
     bool vsync = true;
     bool debug = true;  ///< GL_DEBUG_OUTPUT, synchronous; messages go to the log and to `debug_messages`
 };
@@ -23,7 +23,7 @@ struct ContextRequest {
 /// What the renderer may want to know of the driver.
 struct Capabilities {
     std::string vendor, renderer, version;
-    bool software = false;             ///< llvmpipe or softpipe: timer queries lie, see gl::TimerMode
+    bool software = false;             ///< gl::is_software_driver: timer queries lie, see gl::TimerMode
     bool indirect_parameters = false;  ///< ARB_indirect_parameters
     float max_anisotropy = 1;
     int max_texture_size = 0;
@@ -50,6 +50,8 @@ class GlContext {
     virtual void present(unsigned framebuffer, glm::ivec2 size) = 0;
     [[nodiscard]] virtual bool should_close() const { return false; }
     virtual void request_close() {}
+    /// Gives the window that size in pixels and shows it. Headless: framebuffer_size() says it from now on.
+    virtual void show_window(glm::ivec2 size) = 0;
     /// Pixels of the window's framebuffer; the requested size when headless.
     [[nodiscard]] virtual glm::ivec2 framebuffer_size() const = 0;
     /// Captures the pointer for mouse look. Headless: does nothing.

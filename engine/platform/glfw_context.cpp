@@ -71,6 +71,10 @@ class GlfwContext final : public GlContext {
     void capture_pointer(bool capture) override { glfw_input_->capture_pointer(capture); }
     [[nodiscard]] bool should_close() const override { return glfwWindowShouldClose(window_) == GLFW_TRUE; }
     void request_close() override { glfwSetWindowShouldClose(window_, GLFW_TRUE); }
+    void show_window(glm::ivec2 size) override {
+        glfwSetWindowSize(window_, size.x, size.y);
+        glfwShowWindow(window_);
+    }
     [[nodiscard]] glm::ivec2 framebuffer_size() const override {
         glm::ivec2 size;
         glfwGetFramebufferSize(window_, &size.x, &size.y);
@@ -91,7 +95,7 @@ class GlfwContext final : public GlContext {
   private:
     void create_window(const ContextRequest& request) {
         glfwWindowHint(GLFW_OPENGL_DEBUG_CONTEXT, request.debug ? GLFW_TRUE : GLFW_FALSE);
-        glfwWindowHint(GLFW_VISIBLE, request.window ? GLFW_TRUE : GLFW_FALSE);
+        glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
         glfwWindowHint(GLFW_DEPTH_BITS, 0);
         glfwWindowHint(GLFW_STENCIL_BITS, 0);
         window_ = glfwCreateWindow(request.size.x, request.size.y, request.title.c_str(), nullptr, nullptr);

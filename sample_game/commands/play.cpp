@@ -9,6 +9,7 @@
 #include "sample_game/commands/commands.h"
 #include "sample_game/flythrough.h"
 #include "sample_game/game.h"
+#include "sample_game/play_choice.h"
 #include "sample_game/ui/loading_picture.h"
 #include "session/number_option.h"
 
@@ -29,11 +30,17 @@ void add_play_command(CLI::App& app) {
     struct Options {
         DrawOptions draw;
         GameOptions game;
+        std::optional<float> scale;
         FlythroughOptions path{.out = "tyndall-flythrough"};
     };
     auto o = std::make_shared<Options>();
     CLI::App* command = app.add_subcommand("play", "Walk through a level; with no display, render its fly-through");
     o->draw.add_to(*command, (data_root() / "assets/levels/abbey.glb").string(), "1280x720");
+    command
+        ->add_option("--scale", o->scale,
+                     "of the sides of the picture of the scene, which is scaled up to the window; without a GPU as "
+                     "small as can be walked through")
+        ->check(number_in(least_scale, 1));
     command->add_option("--frames", o->game.frames, "quit after so many frames")->check(CLI::Range(1, 1000000000));
     command->add_option("--fixed-step", o->game.fixed_step, "seconds per frame instead of the wall clock")
         ->check(number_in(1e-4, 1));
@@ -46,7 +53,7 @@ void add_play_command(CLI::App& app) {
         ->check(number_in(1e-3, 1e6));
     command->callback([o, command] {
         if (!has_display() && parse_context_kind(o->draw.context) == ContextKind::automatic) {
-            for (const char* option : {"--frames", "--fixed-step", "--screenshot", "--stats"})
+            for (const char* option : {"--frames", "--fixed-step", "--screenshot", "--stats", "--scale"})
                 if (command->count(option) > 0) throw Error(fmt::format("no display, which {} needs", option));
             fmt::print(stderr, "tyndall: no display, so the fly-through is rendered into {}\n",
                        o->path.out.string());
@@ -77,8 +84,21 @@ void add_play_command(CLI::App& app) {
         check_outputs(outputs, o->draw.inputs());
         std::optional<LoadingPicture> picture;
         float share = 0;
+        const auto choose = [&](Session& opening) {
+            PlayGiven given{.window = {}, .scale = o->scale, .preset = o->draw.preset};
+            if (command->count("--size") > 0) given.window = o->draw.pixels();
+            const PlayChoice choice = choose_play(opening.context->capabilities().renderer, given);
+            o->draw.preset = choice.preset;
+            o->draw.apply(opening.settings);
+            o->game.scale = choice.scale;
+            o->game.told = choice.told;
+            opening.context->show_window(choice.window);
+        };
         Session session(o->draw, true, [&](Session& opening, const std::string& doing) {
-            if (!picture) picture.emplace(*opening.context, *opening.shaders);
+            if (!picture) {
+                choose(opening);
+                picture.emplace(*opening.context, *opening.shaders);
+            }
             picture->show(doing, share += 0.25f);
         });
         o->game.early_keys = picture->keys_pressed();

@@ -9,6 +9,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/files.h"
+#include "sample_game/play_choice.h"
 #include "sample_game/ui/passes_panel.h"
 #include "sample_game/ui/settings_panel.h"
 
@@ -88,8 +89,10 @@ void DebugUi::hud_line(const Session& session, const Hud& hud) const {
                   : std::string("volumetrics not timed");
         wrap_at(screen.x);
         if (!hud.message.empty()) ImGui::TextUnformatted(hud.message.c_str());
-        ImGui::Text("%s  |  %.1f ms frame  |  %s  |  %s", session.settings.get("technique").c_str(), hud.frame_ms,
-                    volumetrics.c_str(), hud.place.c_str());
+        const bool scaled = session.size.x < static_cast<int>(screen.x);
+        const std::string size = scaled ? fmt::format("{} x {}  |  ", session.size.x, session.size.y) : "";
+        ImGui::Text("%s  |  %s%.1f ms frame  |  %s  |  %s", session.settings.get("technique").c_str(), size.c_str(),
+                    hud.frame_ms, volumetrics.c_str(), hud.place.c_str());
         ImGui::PopTextWrapPos();
     }
     ImGui::End();
@@ -108,12 +111,14 @@ void DebugUi::shader_errors(const ShaderLibrary& shaders) const {
     ImGui::End();
 }
 
-void DebugUi::level(Session& session, LevelLogic& logic) {
+void DebugUi::level(Session& session, LevelLogic& logic, float& scale) {
     if (!ImGui::CollapsingHeader("Level", ImGuiTreeNodeFlags_DefaultOpen)) return;
     ImGui::PushItemWidth(ImGui::GetContentRegionAvail().x * 0.5f);
     choose("Time of day (T)", logic.day_times(), logic.day_time(),
            [&](std::size_t i) { logic.set_day_time(session.scene, i); });
     choose("Fog (G)", logic.fogs(), logic.fog(), [&](std::size_t i) { logic.set_fog(session.scene, i); });
+    ImGui::SliderFloat("Scale of the picture", &scale, static_cast<float>(least_scale), 1, "%.2f",
+                       ImGuiSliderFlags_AlwaysClamp);
     ImGui::PopItemWidth();
 }
 
@@ -144,7 +149,7 @@ void DebugUi::presets(Session& session) {
     if (!preset_message_.empty()) ImGui::TextWrapped("%s", preset_message_.c_str());
 }
 
-DebugUi::Requests DebugUi::window(Session& session, LevelLogic& logic) {
+DebugUi::Requests DebugUi::window(Session& session, LevelLogic& logic, float& scale) {
     Requests requests;
     const auto tab = [](const char* name, const std::function<void()>& content) {
         if (!ImGui::BeginTabItem(name)) return;
@@ -160,7 +165,7 @@ DebugUi::Requests DebugUi::window(Session& session, LevelLogic& logic) {
     ImGui::SetNextWindowSizeConstraints(ImVec2(100, 100), largest);
     if (ImGui::Begin("Tyndall  (F1)", &visible) && ImGui::BeginTabBar("tabs")) {
         tab("Settings", [&] {
-            level(session, logic);
+            level(session, logic, scale);
             presets(session);
             settings_panel(session.settings, session.volumetrics.show_acceptance);
         });
@@ -173,16 +178,16 @@ DebugUi::Requests DebugUi::window(Session& session, LevelLogic& logic) {
     return requests;
 }
 
-DebugUi::Requests DebugUi::frame(Session& session, LevelLogic& logic, const Hud& hud, double dt,
-                                 bool pointer_is_free) {
-    input_.feed(session.context->input(), session.size, dt, pointer_is_free);
+DebugUi::Requests DebugUi::frame(Session& session, LevelLogic& logic, const Hud& hud, const Screen& screen,
+                                 float& scale, double dt, bool pointer_is_free) {
+    input_.feed(session.context->input(), screen.size(), dt, pointer_is_free);
     ImGui::NewFrame();
     Requests requests;
     if (hud_visible) hud_line(session, hud);
     shader_errors(*session.shaders);
-    if (visible) requests = window(session, logic);
+    if (visible) requests = window(session, logic, scale);
     ImGui::Render();
-    renderer_->draw(session.renderer->display_framebuffer(), session.renderer->size());
+    renderer_->draw(screen.framebuffer(), screen.size());
     return requests;
 }
 

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "sample_game/level_logic.h"
+#include "sample_game/screen.h"
 #include "sample_game/ui/imgui_input.h"
 #include "sample_game/ui/imgui_renderer.h"
 #include "sample_game/ui/texture_viewer.h"
@@ -28,8 +29,10 @@ class DebugUi {
     struct Requests {
         bool screenshot = false;
     };
-    /// Builds and draws over the renderer's display framebuffer. `pointer_is_free`: not captured for mouse look.
-    Requests frame(Session& session, LevelLogic& logic, const Hud& hud, double dt, bool pointer_is_free);
+    /// Builds and draws over the screen. `scale`: of the scene, which the debug window changes. `pointer_is_free`:
+    /// not captured for mouse look.
+    Requests frame(Session& session, LevelLogic& logic, const Hud& hud, const Screen& screen, float& scale,
+                   double dt, bool pointer_is_free);
 
     bool visible = false;     ///< the debug window (F1)
     bool hud_visible = true;  ///< the HUD line (H)
@@ -39,8 +42,8 @@ class DebugUi {
   private:
     void hud_line(const Session& session, const Hud& hud) const;
     void shader_errors(const ShaderLibrary& shaders) const;
-    Requests window(Session& session, LevelLogic& logic);
-    void level(Session& session, LevelLogic& logic);
+    Requests window(Session& session, LevelLogic& logic, float& scale);
+    void level(Session& session, LevelLogic& logic, float& scale);
     void presets(Session& session);
 
     struct ContextDeleter {

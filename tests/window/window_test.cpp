@@ -48,7 +48,9 @@ double mean_difference(const Image& a, const Image& b) {
 
 /// Rows of the debug UI's settings, in pixels of the window: Dear ImGui's default font and spacing.
 struct Row {
-    static constexpr int x = 120, first_y = 187, height = 23, popup = 24, item = 17;
+    static constexpr int x = 120, first_y = 210, height = 23, popup = 24, item = 17;
+
+    static constexpr int scale_y = 141, scale_right = 210;  // of the slider for the scale of the picture
 
     static std::vector<std::string> keys(const SettingsSection* section) {
         std::vector<std::string> keys;
@@ -91,7 +93,11 @@ TEST(Window, WalkLookAndTheDebugUi) {
     if (const std::string reason = GameProcess::missing(); !reason.empty()) GTEST_SKIP() << reason;
     GameProcess game({level(),
                       "--size",
-                      "448x540",
+                      "448x570",
+                      "--scale",
+                      "0.5",
+                      "--preset",
+                      "balanced",
                       "--technique",
                       "off",
                       "--set",
@@ -181,8 +187,9 @@ class SmallGame : public ::testing::Test {
         if (const std::string reason = GameProcess::missing(); !reason.empty()) GTEST_SKIP() << reason;
         write_scene(folder_ / "scene.gltf",
                     {.sun = true, .media = R"([{"shape":"global","scattering":[0.01,0.01,0.01]}])"});
-        game_.emplace(std::vector<std::string>{(folder_ / "scene.gltf").string(), "--size", "448x540", "--set",
-                                               "steps=2", "--set", "temporal=off"});
+        game_.emplace(std::vector<std::string>{(folder_ / "scene.gltf").string(), "--size", "448x540", "--scale",
+                                               "0.5", "--preset", "balanced", "--set", "steps=2", "--set",
+                                               "temporal=off"});
     }
     TemporaryFolder folder_;
     std::optional<GameProcess> game_;
@@ -216,6 +223,32 @@ TEST_F(SmallGame, StatisticsThatCannotBeWrittenCostNoPicture) {
     EXPECT_EQ(game_->picture().size, glm::ivec2(448, 540));
     game_->key("Escape");
     EXPECT_EQ(game_->wait_for_exit(), 1);
+}
+
+TEST_F(SmallGame, ThePictureFollowsTheWindowAndTheSliderOfItsScale) {
+    const auto size = [](const GameProcess::State& s, const char* of) {
+        return glm::ivec2(s.stats.at(of).at(0), s.stats.at(of).at(1));
+    };
+    GameProcess::State state = game_->state();
+    EXPECT_EQ(size(state, "size"), glm::ivec2(224, 270));
+    game_->resize(500, 400);
+    state = game_->state_when([&](const auto& s) { return size(s, "window").x == 500; }, "resized window");
+    EXPECT_EQ(size(state, "window"), glm::ivec2(500, 400));
+    EXPECT_EQ(size(state, "size"), glm::ivec2(250, 200));
+    EXPECT_EQ(state.picture.size, glm::ivec2(500, 400));
+
+    game_->key("F1");
+    game_->frames(2);
+    game_->move_pointer(Row::scale_right, Row::scale_y);
+    game_->frames(2);
+    game_->click();
+    state = game_->state_when([&](const auto& s) { return size(s, "size").x > 450; }, "larger scale");
+    EXPECT_EQ(state.picture.size, glm::ivec2(500, 400));
+    game_->key("Escape");
+    game_->frames(1);
+    game_->key("Escape");
+    EXPECT_EQ(game_->wait_for_exit(), 0);
+    EXPECT_EQ(game_->stats().at("gl_messages"), 0);
 }
 
 }  // namespace

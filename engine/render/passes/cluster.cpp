@@ -7,6 +7,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/log.h"
+#include "engine/gl/software_driver.h"
 #include "shaders/engine/visible_lights.h"
 #include "shaders/lib/glm_subset.h"
 #include "shaders/shared/bindings.h"
@@ -89,9 +90,8 @@ void ClusterPass::reserve(const FrameContext& frame, const LightSet& lights) {
 std::size_t lamps_for_loops(std::string_view renderer, const RenderSettings& settings) {
     constexpr std::size_t rounds = 65'535,
                           marched = 2 * 8;  // a segment reads its slices' lists, and lights each lamp
-    const bool software = renderer.starts_with("llvmpipe") || renderer.starts_with("softpipe");
-    return software ? rounds / (static_cast<std::size_t>(settings.cluster_z) + marched)
-                    : std::numeric_limits<std::size_t>::max();
+    return gl::is_software_driver(renderer) ? rounds / (static_cast<std::size_t>(settings.cluster_z) + marched)
+                                            : std::numeric_limits<std::size_t>::max();
 }
 
 ClusterPass::Output ClusterPass::add(FrameContext& frame, const LightSet& lights, TextureRef pyramid) {

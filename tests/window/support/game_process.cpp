@@ -112,6 +112,10 @@ void GameProcess::click() {
     xdotool("click 1");
 }
 
+void GameProcess::resize(int width, int height) {
+    xdotool(fmt::format("windowsize {} {} {}", window_, width, height));
+}
+
 void GameProcess::stop() {
     kill(pid_, SIGSTOP);
 }

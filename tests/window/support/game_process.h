@@ -33,6 +33,7 @@ class GameProcess {
     void move_pointer(int x, int y);    ///< pixels of the window from the top left
     void turn_pointer(int dx, int dy);  ///< relative, by a hand's small steps
     void click();
+    void resize(int width, int height);  ///< the window
     /// While it is stopped, what is sent waits for the one poll after it goes on: a slow frame.
     void stop();
     void go_on();
