@@ -109,7 +109,8 @@ ClosedFormFog fog_in_parts(Ray ray, float end, Cuts cuts, int parts, vec3 ambien
 }
 
 // The error of parts falls as the square of their length (Richardson): half as long, they have a third of what they differ.
-vec3 extrapolated(vec3 coarse, vec3 fine) { return fine + clamp((fine - coarse) / 3.0, -0.5 * fine, 0.5 * fine); }
+// More than a few percent is no such error, and to add it might make energy.
+vec3 extrapolated(vec3 coarse, vec3 fine) { return fine + clamp((fine - coarse) / 3.0, -0.03 * fine, 0.03 * fine); }
 
 // surface: distance, m; endless: there is none, and `surface` only stands for far away.
 // A mixture's error is in docs/techniques.md.
