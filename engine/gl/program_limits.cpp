@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
+#include <string_view>
 #include <utility>
 
 #include "engine/core/error.h"
@@ -90,6 +92,12 @@ ProgramLimits driver_limits() {
             .texture_units = driver_limit(GL_MAX_TEXTURE_IMAGE_UNITS),
             .image_units = driver_limit(GL_MAX_IMAGE_UNITS),
             .draw_buffers = driver_limit(GL_MAX_DRAW_BUFFERS)};
+}
+
+std::uint32_t loop_rounds() {
+    const std::string_view renderer(reinterpret_cast<const char*>(glGetString(GL_RENDERER)));
+    const bool software = renderer.starts_with("llvmpipe") || renderer.starts_with("softpipe");
+    return software ? 65'535 : std::numeric_limits<std::uint32_t>::max();
 }
 
 void check_limits(const std::string& label, const ProgramLimits& needs, const ProgramLimits& limits) {
