@@ -132,6 +132,19 @@ std::string temporal_tables(const Grid& grid) {
            "frame.\n\n";
 }
 
+/// The mean over a period of the camera, the last one.
+std::string walk_tables(const Grid& grid) {
+    return least_in_bold("mean of the last 32 frames", grid.names, grid.groups,
+                         [&](const std::string& technique, const std::string& name) {
+                             const std::vector<FrameErrors>* frames = grid.at(technique, name);
+                             if (frames == nullptr) return std::numeric_limits<double>::quiet_NaN();
+                             double sum = 0;
+                             for (std::size_t i = frames->size() - 32; i < frames->size(); ++i)
+                                 sum += (*frames)[i].error / 32;
+                             return sum;
+                         });
+}
+
 }  // namespace
 
 bool on_plot(const SequenceSuite& suite, const Sequence& s) {
@@ -149,6 +162,7 @@ std::string sequence_tables(const SequenceSuite& suite, const Store& store, cons
     if (suite.name == "noise") return noise_tables(grid);
     if (suite.name == "filters") return filter_tables(grid);
     if (suite.name == "temporal") return temporal_tables(grid);
+    if (suite.name == "walk") return walk_tables(grid);
     Table table{{"", "frame 0", "last frame"}};
     for (const std::string& group : grid.groups)
         for (const std::string& name : grid.names)

@@ -115,6 +115,30 @@ std::vector<Sequence> temporal_sequences(const Place& place, glm::ivec2 size) {
     return list;
 }
 
+/// To and fro along 16 poses, never at rest.
+std::vector<Pose> to_and_fro(int frames) {
+    std::vector<Pose> poses;
+    for (int frame = 0; frame < frames; ++frame) poses.push_back({16 - std::abs(frame % 32 - 16), 0});
+    return poses;
+}
+
+/// What is left of a technique's error: in single frames of a moving camera, with history, and with history at
+/// rest.
+std::vector<Sequence> walk_sequences(const Place& place, glm::ivec2 size) {
+    constexpr int frames = 96;
+    std::vector<Sequence> list;
+    for (const char* technique : {"ray_march", "billboards", "particles"}) {
+        const auto add = [&](const char* name, const Settings& settings, std::vector<Pose> poses) {
+            list.push_back(sequence(place, size, technique, name,
+                                    joined({std::string("technique=") + technique}, settings), std::move(poses)));
+        };
+        add("moving, single frames", {"temporal=off"}, to_and_fro(33));
+        add("moving", {}, to_and_fro(frames));
+        add("at rest", {}, at_rest(frames));
+    }
+    return list;
+}
+
 /// For the tests: an image that stays, one that moves.
 std::vector<Sequence> test_sequences(const Place& place, glm::ivec2 size) {
     const Settings settings{"noise=bayer", "noise_time=fixed", "filter=none", "temporal=off"};
@@ -158,6 +182,14 @@ const std::vector<Definition>& definitions() {
          temporal_sequences,
          10,
          &FrameErrors::dim},
+        {"walk",
+         "A moving camera",
+         "the defaults of each technique; the camera goes to and fro, 0.05 m and 0.5° a frame, or rests; each "
+         "frame against the ground truth of its pose",
+         {"LocalPM", "Sun", "Balance"},
+         walk_sequences,
+         8,
+         &FrameErrors::error},
         {"sequences",
          "Sequences themselves, in seconds",
          "ray_march, 4 steps, Bayer noise",

@@ -28,7 +28,7 @@ struct SequenceSuite {
     double FrameErrors::*measure = &FrameErrors::error;  ///< in tables and plots
     std::vector<std::string> limit;                      ///< settings whose mean over many frames is compared too
 };
-/// noise, filters, temporal, sequences (small, for the tests).
+/// noise, filters, temporal, walk, sequences (small, for the tests).
 [[nodiscard]] const std::vector<std::string>& sequence_suite_names();
 /// Throws UsageError (unknown place). The name is one of sequence_suite_names().
 [[nodiscard]] SequenceSuite make_sequence_suite(const SuiteRequest& request);

@@ -4,9 +4,12 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
+#include <string_view>
 #include <utility>
 
 #include "engine/core/error.h"
+#include "engine/gl/software_driver.h"
 
 namespace tyndall::gl {
 namespace {
@@ -90,6 +93,11 @@ ProgramLimits driver_limits() {
             .texture_units = driver_limit(GL_MAX_TEXTURE_IMAGE_UNITS),
             .image_units = driver_limit(GL_MAX_IMAGE_UNITS),
             .draw_buffers = driver_limit(GL_MAX_DRAW_BUFFERS)};
+}
+
+std::uint32_t loop_rounds() {
+    const std::string_view renderer(reinterpret_cast<const char*>(glGetString(GL_RENDERER)));
+    return is_software_driver(renderer) ? 65'535 : std::numeric_limits<std::uint32_t>::max();
 }
 
 void check_limits(const std::string& label, const ProgramLimits& needs, const ProgramLimits& limits) {

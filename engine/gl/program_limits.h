@@ -2,6 +2,7 @@
 
 #include <glad/gl.h>
 
+#include <cstdint>
 #include <string>
 
 namespace tyndall::gl {
@@ -22,6 +23,9 @@ inline constexpr ProgramLimits promised_limits{8, 8, 8, 8, 8, 16, 8, 8};
 
 [[nodiscard]] ProgramLimits program_needs(GLuint program);
 [[nodiscard]] ProgramLimits driver_limits();
+
+/// Rounds of all loops of one shader after which the driver ends them: software rasterisers have such a limit.
+[[nodiscard]] std::uint32_t loop_rounds();
 
 /// Throws Error that names the program, the first need beyond its limit, and both numbers.
 void check_limits(const std::string& label, const ProgramLimits& needs, const ProgramLimits& limits);

@@ -45,6 +45,8 @@ bool reaches(VisibleLight light, Cluster cluster) {
                              cluster.center, length(cluster.half_size));
 }
 
+bool reached(uint i, Cluster cluster) { return i < visible_header.count && reaches(visible_lights[i], cluster); }
+
 void main() {
     uint id = gl_GlobalInvocationID.x;
     uvec3 size = frame.cluster_size.xyz;
@@ -52,13 +54,21 @@ void main() {
     Cluster cluster = cluster_of(id);
     uint visible = visible_header.count;
     uint count = 0u;
-    for (uint i = 0u; i < visible; ++i) count += reaches(visible_lights[i], cluster) ? 1u : 0u;
+    // Four a round: llvmpipe ends a shader's loops after 65,535 rounds in all.
+    for (uint i = 0u; i < visible; i += 4u) {
+        count += uint(reached(i, cluster)) + uint(reached(i + 1u, cluster)) + uint(reached(i + 2u, cluster)) +
+                 uint(reached(i + 3u, cluster));
+    }
     if (count == 0u) {
         clusters[id] = ClusterRange(0u, 0u);
         return;
     }
     uint offset = atomicAdd(visible_header.pool_used, count);
     clusters[id] = ClusterRange(offset, count);
-    for (uint i = 0u; i < visible; ++i)
-        if (reaches(visible_lights[i], cluster)) cluster_lights[offset++] = visible_lights[i].index_box.x;
+    for (uint i = 0u; i < visible; i += 4u) {
+        if (reached(i, cluster)) cluster_lights[offset++] = visible_lights[i].index_box.x;
+        if (reached(i + 1u, cluster)) cluster_lights[offset++] = visible_lights[i + 1u].index_box.x;
+        if (reached(i + 2u, cluster)) cluster_lights[offset++] = visible_lights[i + 2u].index_box.x;
+        if (reached(i + 3u, cluster)) cluster_lights[offset++] = visible_lights[i + 3u].index_box.x;
+    }
 }

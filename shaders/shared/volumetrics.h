@@ -88,8 +88,8 @@ struct VolumetricsData {
     vec4 froxel_depths;         // x nearest, y farthest view depth (m) of the froxel volume
     uint has_global;            // 1: some medium fills space
     uint further_suns;          // the first of the lamps
-    uint unused_1;
-    uint unused_2;
+    uint loop_rounds;           // of all loops of a shader, after which the driver ends them
+    uint unused;
     mat4 froxel_begins;         // FROXEL_TABLE: view depth (m) where each of 16 equal shares of the slices begins
     mat4 froxel_lengths;        // and their lengths (m); entry i is [i / 4][i % 4]
     mat4 world_to_sun_volume;   // world to texture xyz of the sun volume, see light_transmittance.glsl

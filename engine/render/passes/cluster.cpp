@@ -7,7 +7,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/log.h"
-#include "engine/gl/software_driver.h"
+#include "engine/gl/program_limits.h"
 #include "shaders/engine/visible_lights.h"
 #include "shaders/lib/glm_subset.h"
 #include "shaders/shared/bindings.h"
@@ -87,23 +87,15 @@ void ClusterPass::reserve(const FrameContext& frame, const LightSet& lights) {
          "visible lights");
 }
 
-std::size_t lamps_for_loops(std::string_view renderer, const RenderSettings& settings) {
-    constexpr std::size_t rounds = 65'535,
-                          marched = 2 * 8;  // a segment reads its slices' lists, and lights each lamp
-    return gl::is_software_driver(renderer) ? rounds / (static_cast<std::size_t>(settings.cluster_z) + marched)
-                                            : std::numeric_limits<std::size_t>::max();
-}
-
 ClusterPass::Output ClusterPass::add(FrameContext& frame, const LightSet& lights, TextureRef pyramid) {
     reserve(frame, lights);
     const auto in_view = static_cast<std::size_t>(frame.facts.local_lights_in_view);
-    if (const std::size_t most =
-            lamps_for_loops(reinterpret_cast<const char*>(glGetString(GL_RENDERER)), frame.settings);
-        in_view > most && !warned_) {
+    // A round for each lamp, and one in which the media dim it.
+    if (const std::size_t most = gl::loop_rounds() / 2; in_view > most && !warned_) {
         warned_ = true;
         spdlog::warn(
-            "lamps: {} in view; this driver ends a shader's loops early: where more than about {} overlap, the "
-            "air lacks light, but in the technique reference; lower cluster_z or give them ranges",
+            "lamps: {} in view; this driver ends a shader's loops early: where more than {} overlap, surfaces lack "
+            "light; give them ranges",
             in_view, most);
     }
     BufferRef all = frame.passes.import_buffer("lights", lights.buffer());

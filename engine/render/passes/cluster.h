@@ -1,7 +1,5 @@
 #pragma once
 
-#include <string_view>
-
 #include "engine/gl/buffer.h"
 #include "engine/render/frame_context.h"
 #include "engine/render/light_set.h"
@@ -33,10 +31,6 @@ class ClusterPass {
 
 /// FrameData's part about clusters; also needed where no lamp is in view.
 void set_cluster_grid(shared::FrameData& frame, const RenderSettings& settings, float znear, std::size_t lights);
-
-/// Lamps that may overlap before a loop over them in a march of 8 segments ends early: software rasterisers stop a
-/// shader after 65,535 rounds of all its loops. No limit on other drivers.
-[[nodiscard]] std::size_t lamps_for_loops(std::string_view renderer, const RenderSettings& settings);
 
 /// Entries that the lists of all clusters can have at most: each lamp in every cluster of the box around its reach.
 [[nodiscard]] std::size_t cluster_list_bound(const shared::FrameData& frame,

@@ -19,6 +19,29 @@
 #define FROXEL_HISTORY 0
 #endif
 
+// Rounds of all loops of the shader for each lamp that reaches all that it lights: see expect_lamps. Where a driver would end
+// the loops early, every nth lamp of a list is taken, n times as bright, beginning at another for another `place`.
+uint lamp_rounds = 0u;
+
+// Lamps will be taken from the lists between two distances, and light so many segments: a walk finds a lamp in each of
+// them, and reads each list once. Lanes that run in step wait for each other, so that it may take twice as long.
+void expect_lamps(Ray ray, float begin, float end, uint segments) {
+    uint lists = uint(light_slice(end * ray.forward_cosine) - light_slice(begin * ray.forward_cosine) + 1);
+#if HEIGHT_MEDIA > 1
+    uint loops = LAMPS == 1 ? 1u : 16u;  // over height media, for a lamp and segment
+    uint in_media = loops * (volumetrics.height_media_count + 1u);
+#else
+    uint in_media = 0u;
+#endif
+#if EPIPOLAR
+    in_media += 16u;  // nodes of a tree
+#endif
+    lamp_rounds = LAMPS == 1 ? segments * (1u + in_media) : 2u * lists + segments * (2u + in_media);
+}
+
+uint lamp_stride(uint count) { return 1u + count * lamp_rounds / volumetrics.loop_rounds; }
+uint first_lamp(uint stride, float place) { return uint(fract(39.55 * place) * float(stride)); }
+
 float lamp_inverse_range(GpuLight light) {
     return light.position_range.w > 0.0 ? 1.0 / light.position_range.w : 0.0;
 }
@@ -43,7 +66,8 @@ vec3 lamps_at(Ray ray, float t, float t_visibility, Medium m, out vec3 unshadowe
     vec3 point = ray.origin + ray.direction * t;
     ClusterRange range = lights_near(ray.uv, t * ray.forward_cosine);
     vec3 sum = vec3(0.0);
-    for (uint i = 0u; i < range.count; ++i) {
+    uint stride = lamp_stride(range.count);
+    for (uint i = first_lamp(stride, t_visibility); i < range.count; i += stride) {
         uint index = light_index(range.offset + i);
         GpuLight light = light_at(index);
         count_work(WORK_LIGHT_EVALUATIONS, 1u);
@@ -64,7 +88,8 @@ vec3 lamps_at(Ray ray, float t, float t_visibility, Medium m, out vec3 unshadowe
         sum += scattered * (visible * attenuation);
         unshadowed += scattered * attenuation;
     }
-    return sum;
+    unshadowed *= float(stride);
+    return float(stride) * sum;
 }
 #endif
 
@@ -124,6 +149,7 @@ struct LampWalk {
     int slice;
     uint next;  // entry of the slice's list
     uint list_end;
+    uint stride;
 };
 
 struct FoundLamp {
@@ -133,7 +159,7 @@ struct FoundLamp {
 };
 
 LampWalk lamp_walk(Ray ray, Segment segment) {
-    return LampWalk(segment.begin, segment.begin, light_slice(segment.begin * ray.forward_cosine) - 1, 0u, 0u);
+    return LampWalk(segment.begin, segment.begin, light_slice(segment.begin * ray.forward_cosine) - 1, 0u, 0u, 1u);
 }
 
 void next_slice(Ray ray, Segment segment, inout LampWalk walk) {
@@ -141,18 +167,20 @@ void next_slice(Ray ray, Segment segment, inout LampWalk walk) {
     walk.begin = walk.end;
     walk.end = clamp(light_slice_end(walk.slice) / ray.forward_cosine, walk.begin, segment.end);
     ClusterRange range = lights_in_slice(ray.uv, walk.slice);
-    walk.next = range.offset;
+    walk.stride = lamp_stride(range.count);
+    walk.next = range.offset + first_lamp(walk.stride, segment.offset);
     walk.list_end = range.offset + range.count;
 }
 
 // Rasterisers that run all lanes in step pay what is done with a lamp only for the lamps found.
 bool next_lamp(Ray ray, Segment segment, inout LampWalk walk, out FoundLamp found) {
     while (walk.next < walk.list_end || walk.end < segment.end) {
-        if (walk.next == walk.list_end) {
+        if (walk.next >= walk.list_end) {
             next_slice(ray, segment, walk);
             continue;
         }
-        found.index = light_index(walk.next++);
+        found.index = light_index(walk.next);
+        walk.next += walk.stride;
         GpuLight light = light_at(found.index);
         found.lamp = lamp_ray(ray.origin, ray.direction, light.position_range.xyz);
         found.reach = lamp_reach(ray, segment, light, found.lamp);
@@ -220,7 +248,11 @@ vec3 lamps_over_segment(Ray ray, Segment segment, out vec3 unshadowed) {
     unshadowed = vec3(0.0);
     LampWalk walk = lamp_walk(ray, segment);
     FoundLamp found;
-    while (next_lamp(ray, segment, walk, found)) sum += lamp_over_segment(ray, segment, found, unshadowed);
+    while (next_lamp(ray, segment, walk, found)) {
+        vec3 whole = vec3(0.0);
+        sum += float(walk.stride) * lamp_over_segment(ray, segment, found, whole);
+        unshadowed += float(walk.stride) * whole;
+    }
     return sum;
 }
 #endif

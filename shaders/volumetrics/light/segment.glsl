@@ -86,6 +86,17 @@ const float TAIL_GROWTH = 5.0;
 const float TAIL_FIRST_PART = 4.0 / 3124.0;  // (growth - 1) / (growth^parts - 1)
 
 #if HAS_SUN
+struct FurtherSun {
+    vec3 to_sun;
+    vec3 illuminance;
+};
+
+FurtherSun further_sun(uint i) {
+    GpuLight light = light_at(i);
+    return FurtherSun(-light.direction_type.xyz,
+                      light.intensity_radius.rgb / (SUN_LAMP_DISTANCE * SUN_LAMP_DISTANCE));
+}
+
 // What the further suns, the first of the lamps, send from global media over [begin, end] to its front, unshadowed.
 vec3 further_suns(Ray ray, float begin, float end) {
     float y = ray.origin.y + ray.direction.y * begin;
@@ -93,12 +104,10 @@ vec3 further_suns(Ray ray, float begin, float end) {
     Optics optics = medium_optics(m, end - begin);
     vec3 sum = vec3(0.0);
     for (uint i = 0u; i < volumetrics.further_suns; ++i) {
-        GpuLight light = light_at(i);
-        vec3 to_sun = -light.direction_type.xyz;
-        Extinction front = to_extinction(sun_optical_depth(y, to_sun));
-        Extinction back = to_extinction(sun_optical_depth(ray.origin.y + ray.direction.y * end, to_sun));
-        vec3 illuminance = light.intensity_radius.rgb / (SUN_LAMP_DISTANCE * SUN_LAMP_DISTANCE);
-        sum += illuminance * volume_scattering(m, dot(to_sun, ray.direction)) *
+        FurtherSun sun = further_sun(i);
+        Extinction front = to_extinction(sun_optical_depth(y, sun.to_sun));
+        Extinction back = to_extinction(sun_optical_depth(ray.origin.y + ray.direction.y * end, sun.to_sun));
+        sum += sun.illuminance * volume_scattering(m, dot(sun.to_sun, ray.direction)) *
                sun_between(optics.depth, front, back, end - begin).effective_length;
     }
     return sum;

@@ -12,6 +12,7 @@ float average(Extinction v) { return dot(v, vec3(1.0 / 3.0)); }
 #define Extinction float
 Extinction to_extinction(vec3 v) { return v.r; }
 float largest(Extinction v) { return v; }
+float smallest(Extinction v) { return v; }
 float average(Extinction v) { return v; }
 #endif
 

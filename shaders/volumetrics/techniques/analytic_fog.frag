@@ -1,5 +1,5 @@
-// Fog from depth alone, without a march. All modes scatter the sun by the media's phase function (the sun lobe), ambient
-// light and emission, and know coloured extinction. With S = sigma_s (p E_sun + L_ambient) + emission and sigma_t:
+// Fog from depth alone, without a march. All modes scatter the suns by the media's phase function (the sun lobe), ambient
+// light and emission, and know coloured extinction. With S = sigma_s (sum p E_sun + L_ambient) + emission and sigma_t:
 //     FOG_HEIGHT       the exact integral with the media's height profiles, see fog.glsl
 //     the others       the media as they are at the eye's height, everywhere; light = S / sigma_t (1 - T(d)), where
 //     FOG_EXPONENTIAL  T(d) = exp(-sigma_t d)               (GL_EXP), exact for homogeneous media
@@ -56,6 +56,12 @@ ClosedFormFog fog_as_at_eye(int mode, Ray ray, float surface, bool endless) {
 #if HAS_SUN
     Extinction arriving = exp(-to_extinction(sun_optical_depth(ray.origin.y, -sun_direction())));
     fog.sun = sun_over(ray, m, curve.effective_length * arriving);
+    for (uint i = 0u; i < volumetrics.further_suns; ++i) {
+        FurtherSun further = further_sun(i);
+        arriving = exp(-to_extinction(sun_optical_depth(ray.origin.y, further.to_sun)));
+        fog.glow += further.illuminance * volume_scattering(m, dot(further.to_sun, ray.direction)) *
+                    (curve.effective_length * arriving);
+    }
 #endif
     fog.transmittance = curve.transmittance;
     return fog;

@@ -79,6 +79,7 @@ March sheet(Ray ray, vec2 part, float offset) {
     }
 #endif
 #if LAMPS
+    expect_lamps(ray, t, t, 1u);
     vec3 unshadowed;
     radiance += lamps_at(ray, t, t, m, unshadowed) * path;
 #endif

@@ -19,8 +19,7 @@
 
 layout(local_size_x = 16, local_size_y = 16) in;
 
-// Slices that one invocation lights, and so the most it may do for nothing.
-const int RUN = 8;
+uniform int run;  // slices that one invocation lights, and so the most it may do for nothing
 
 layout(binding = 0) uniform sampler2D farthest_view_depth;
 #if LOCAL_MEDIA
@@ -138,11 +137,11 @@ void store_slice(ivec3 froxel, SliceLight slice, Extinction transmittance) {
 
 void main() {
     ivec3 size = imageSize(froxel_radiance);
-    ivec3 froxel = ivec3(gl_GlobalInvocationID.xy, RUN * int(gl_WorkGroupID.z));
+    ivec3 froxel = ivec3(gl_GlobalInvocationID.xy, run * int(gl_WorkGroupID.z));
     if (any(greaterThanEqual(froxel, size))) return;
     float farthest = texelFetch(farthest_view_depth, froxel.xy, 0).r;
     count_work(WORK_TEXTURE_FETCHES, 1u);
-    int last = min(froxel_slice(farthest, size.z), froxel.z + RUN - 1);
+    int last = min(froxel_slice(farthest, size.z), froxel.z + run - 1);
     if (froxel.z > last) {
         flush_work();
         return;
@@ -152,6 +151,10 @@ void main() {
     vec3 ambient = volumetrics.has_ambient != 0u ? ambient_radiance() : vec3(0.0);
     float cut = ray_distance_from_view_depth(farthest, ray.forward_cosine);
     float begin = ray_distance_from_view_depth(froxel_slice_begin(froxel.z, size.z), ray.forward_cosine);
+#if LAMPS
+    float run_end = ray_distance_from_view_depth(froxel_slice_begin(last + 1, size.z), ray.forward_cosine);
+    expect_lamps(ray, begin, run_end, uint(last - froxel.z + 1));
+#endif
     Extinction depth = global_optical_depth(ray, 0.0, begin);
     Extinction sun_front = Extinction(0.0);
 #if HAS_SUN

@@ -106,6 +106,7 @@ vec3 lamp_light(Ray ray, float begin, float end, Medium m) {
     vec3 sigma_s = medium < 0 ? volumetrics.homogeneous_sigma_s.rgb : m.sigma_s;
     vec3 unshadowed;
     Segment segment = Segment(begin, end, 0.5, m.anisotropy, sigma_s, volumetrics.homogeneous_sigma_t.rgb);
+    expect_lamps(ray, begin, end, 1u);
     vec3 light = lamps_over_segment(ray, segment, unshadowed) / (end - begin);
     if (medium < 0) return light;
     // The height media that it adds are other particles'.

@@ -1,6 +1,7 @@
 // Light shafts as a post-process: the closed form of fog.glsl, its sun a part by itself, whose visible share
 // radial_visibility.frag finds on screen and reconstruction frees of noise. Fog itself is neither dithered nor filtered.
 // Without an occluder on screen it is the closed form itself.
+// Further suns are part of the fog.
 // It cannot: occluders off screen or hidden behind others, a sun that is not on screen (behind the camera, or beyond the
 // border: then the share radial_unseen of the sun is all there is), lamps, local media. Where in the fog a shadow lies it
 // knows only for the transmittance towards the eye, not for colour or phase, which are those of the whole ray.

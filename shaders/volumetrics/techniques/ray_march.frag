@@ -250,6 +250,9 @@ void main() {
 #else
     float offset = noise_offset(uvec2(gl_FragCoord.xy));
 #endif
+#if LAMPS
+    expect_lamps(ray, begin, end, volumetrics.steps);
+#endif
 
     March march = March(vec3(0.0), Extinction(1.0));
     Extinction sun_front = Extinction(0.0);

@@ -53,7 +53,13 @@ Part lamps_to(Ray ray, float end) {
     Part light = Part(vec3(0.0), vec3(0.0));
     LampWalk walk = lamp_walk(ray, segment);
     FoundLamp found;
-    while (next_lamp(ray, segment, walk, found)) add_lamp_in_parts(ray, segment, found, light);
+    expect_lamps(ray, 0.0, end, uint(shaft_lamp_parts));
+    while (next_lamp(ray, segment, walk, found)) {
+        Part lamp = Part(vec3(0.0), vec3(0.0));
+        add_lamp_in_parts(ray, segment, found, lamp);
+        light.visible += float(walk.stride) * lamp.visible;
+        light.whole += float(walk.stride) * lamp.whole;
+    }
     return light;
 }
 #endif

@@ -3,8 +3,11 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
+#include <iostream>
 #include <numbers>
+#include <random>
 
 #include "tests/gpu/support/gl_test.h"
 #include "tests/gpu/support/volumetrics_host.h"
@@ -90,55 +93,143 @@ TEST_F(AnalyticFog, AllModesButHeightTakeTheMediaAtTheEye) {
     }
 }
 
-/// Radiance of a homogeneous and a height medium of one phase function under the sun, by quadrature.
+/// A further sun, of the light list.
+shared::GpuLight further_sun(glm::vec3 direction, glm::vec3 illuminance) {
+    return {.position_range = glm::vec4(-SUN_LAMP_DISTANCE * direction, 0),
+            .intensity_radius = glm::vec4(illuminance * SUN_LAMP_DISTANCE * SUN_LAMP_DISTANCE, 0),
+            .direction_type = {direction, LIGHT_SUN},
+            .cone_shadow = {0, 1, -1, 0}};
+}
+
+TEST_F(AnalyticFog, FurtherSunsAddTheLightOfASunOfTheirDirection) {
+    host.size = {2, 5};
+    host.vertical_fov = 1.6F;
+    host.eye = {0, 7, 0};
+    host.view_depth = [](int x, int) { return x == 0 ? 20.0F : sky; };
+    host.global = {{.sigma_s = {0.01F, 0.02F, 0.03F}, .sigma_a = glm::vec3(0.01F), .anisotropy = 0.4F},
+                   {.sigma_s = glm::vec3(0.05F), .height = true, .base = 2, .falloff = 4}};
+    const glm::vec3 directions[] = {glm::normalize(glm::vec3(0.3F, -0.5F, 0.6F)),
+                                    glm::normalize(glm::vec3(-1, -0.2F, 0.1F)),
+                                    glm::normalize(glm::vec3(0.1F, -1, -0.7F))};
+    const glm::vec3 lux[] = {{1000, 2000, 500}, {700, 100, 300}, {10, 900, 400}};
+    host.has_sun = true;
+    for (const char* name : {"analytic_fog", "radial_shafts"})
+        for (const FogMode mode : all_modes) {
+            Settings s = settings(mode);
+            Image expected({2, 5}, 4);
+            for (int i = 0; i < 3; ++i) {
+                host.lights.clear();
+                host.sun_direction = directions[i];
+                host.sun_illuminance = lux[i];
+                const Image one = host.render(s).scattering;
+                for (std::size_t k = 0; k < one.pixels.size(); ++k) expected.pixels[k] += one.pixels[k];
+            }
+            host.sun_direction = directions[0];
+            host.sun_illuminance = lux[0];
+            host.lights = {further_sun(directions[1], lux[1]), further_sun(directions[2], lux[2])};
+            s.technique = name;
+            if (s.technique == "radial_shafts") {
+                if (mode != FogMode::height) continue;
+                host.view_depth = [](int, int) { return sky; };  // nothing shadows the first
+                s.radial_shafts.unseen = 1;
+            }
+            const Image all = host.render(s).scattering;
+            for (int x = s.technique == "radial_shafts" ? 1 : 0; x < 2; ++x)
+                for (int y = 0; y < 5; ++y)
+                    for (int c = 0; c < 3; ++c)
+                        EXPECT_LE(relative(all.at(x, y)[c], expected.at(x, y)[c]), 2e-3)
+                            << name << ' ' << int(mode) << ' ' << x << ' ' << y;
+        }
+}
+
+/// A homogeneous medium and some height media of one phase function under some suns.
 struct Mixture {
-    double homogeneous, height, falloff, eye_y, to_sun_y;
-    [[nodiscard]] double density(double y) const { return std::exp(-y / falloff); }
+    struct Height {
+        double sigma, base, falloff;
+    };
+    double homogeneous;
+    std::vector<Height> heights;
+    double eye_y;
+    std::vector<double> to_suns_y;
+
+    /// At a height: all media, and the optical depth of those above.
+    [[nodiscard]] glm::dvec2 at(double y) const {
+        glm::dvec2 sum(homogeneous, 0);
+        for (const Height& h : heights)
+            sum += h.sigma * std::exp((h.base - y) / h.falloff) * glm::dvec2(1, h.falloff);
+        return sum;
+    }
+    /// Radiance for suns of 4 pi lux, by quadrature.
     [[nodiscard]] double radiance(double dy, double length) const {
-        const auto depth_to = [&](double t) {
-            const double k = dy / falloff;
-            const double mean = std::abs(k * t) < 1e-9 ? 1 : -std::expm1(-k * t) / (k * t);
-            return height * density(eye_y) * mean * t + homogeneous * t;
-        };
-        const auto integrand = [&](double t) {
-            const double here = height * density(eye_y + dy * t);
-            return (here + homogeneous) * std::exp(-depth_to(t) - here * falloff / to_sun_y);
-        };
-        double sum = 0;  // panels that grow, so that near and far are both seen, as far as anything is
-        for (double a = 0, b = 0.1; a < length && depth_to(a) < 30; a = b, b *= 1.3)
-            sum += gauss_legendre(integrand, a, std::min(b, length));
+        double thinnest = 1e9, sum = 0, depth = 0;
+        for (const Height& h : heights) thinnest = std::min(thinnest, h.falloff / std::max(std::abs(dy), 1e-6));
+        for (double a = 0, b = 0; a < length && depth < 30; a = b) {
+            const glm::dvec2 here = at(eye_y + dy * a);
+            b = std::min(a + std::min({thinnest, 0.2 / here.x, 0.1 + 0.3 * a}), length);
+            const auto depth_to = [&](double t) {
+                return gauss_legendre([&](double u) { return at(eye_y + dy * u).x; }, a, t);
+            };
+            sum += gauss_legendre(
+                [&](double t) {
+                    const glm::dvec2 there = at(eye_y + dy * t);
+                    double arriving = 0;
+                    for (const double y : to_suns_y) arriving += std::exp(-there.y / y);
+                    return there.x * arriving * std::exp(-depth - depth_to(t));
+                },
+                a, b);
+            depth += depth_to(b);
+        }
         return sum;
     }
 };
 
+// Mixtures drawn at random. The target rounds to 5e-4.
 TEST_F(AnalyticFog, MixtureOfMediaAgreesWithQuadrature) {
+    std::mt19937 random(1);
+    const auto uniform = [&](double a, double b) { return std::uniform_real_distribution(a, b)(random); };
+    const auto logarithmic = [&](double a, double b) { return std::exp(uniform(std::log(a), std::log(b))); };
     host.has_sun = true;
-    host.sun_direction = glm::normalize(glm::vec3(0.4F, -0.6F, 0.2F));
-    host.sun_illuminance = glm::vec3(1000);
-    host.size = {2, 7};
+    host.sun_illuminance = glm::vec3(4 * std::numbers::pi);
+    host.size = {3, 7};
     host.vertical_fov = 1.6F;
-    host.view_depth = [](int x, int) { return x == 0 ? 30.0F : 3000.0F; };
-    double worst = 0;
-    for (const Mixture& m : {Mixture{0.001, 0.04, 8, 2, 0.6}, Mixture{0.01, 0.01, 3, 20, 0.6},
-                             Mixture{0.0003, 0.2, 1, 10, 0.6}, Mixture{0.02, 0.02, 50, 0, 0.6}}) {
-        host.eye = {0, m.eye_y, 0};
-        host.global = {{.sigma_s = glm::vec3(m.homogeneous)},
-                       {.sigma_s = glm::vec3(m.height), .height = true, .falloff = float(m.falloff)}};
-        Mixture mixture = m;
-        mixture.to_sun_y = -host.sun_direction.y;
-        const Frame frame = host.render(settings());
-        for (int x = 0; x < 2; ++x)
-            for (int y = 0; y < 7; ++y) {
-                const glm::dvec3 d = host.ray(x, y);
-                const double length = (x == 0 ? 30 : 3000) / -d.z;
-                const double expected = 1000 / (4 * std::numbers::pi) * mixture.radiance(d.y, length);
-                const double error = relative(frame.scattering.at(x, 6 - y)[0], expected);
-                worst = std::max(worst, error);
-                EXPECT_LE(error, 0.01) << m.falloff << ' ' << x << ' ' << y << ": "
-                                       << frame.scattering.at(x, 6 - y)[0] << " for " << expected;
-            }
+    const float far[] = {10, 100, 3000};
+    host.view_depth = [&](int x, int) { return far[x]; };
+    for (const int heights : {1, 3}) {
+        std::vector<double> errors;
+        for (int i = 0; i < 60; ++i) {
+            host.sun_direction = glm::normalize(glm::vec3(0.4F, -uniform(0.05, 1), 0.2F));
+            const glm::vec3 second = glm::normalize(glm::vec3(-0.1F, -uniform(0.05, 1), -0.4F));
+            host.lights = {further_sun(second, host.sun_illuminance)};
+            Mixture m{.homogeneous = logarithmic(1e-4, 0.05),
+                      .heights = {},
+                      .eye_y = uniform(0, 100),
+                      .to_suns_y = {-host.sun_direction.y, -second.y}};
+            for (int k = 0; k < heights; ++k)
+                m.heights.push_back({logarithmic(1e-3, 1), k == 0 ? 0 : uniform(-20, 20), logarithmic(1, 100)});
+            host.eye = {0, m.eye_y, 0};
+            host.global = {{.sigma_s = glm::vec3(m.homogeneous)}};
+            for (const Mixture::Height& h : m.heights)
+                host.global.push_back({.sigma_s = glm::vec3(h.sigma),
+                                       .height = true,
+                                       .base = float(h.base),
+                                       .falloff = float(h.falloff)});
+            const Frame frame = host.render(settings());
+            for (int x = 0; x < 3; ++x)
+                for (int y = 0; y < 7; ++y) {
+                    const glm::dvec3 d = host.ray(x, y);
+                    const double expected = m.radiance(d.y, double(far[x]) / -d.z);
+                    if (expected < 1e-3) continue;  // of a sun of 4 pi lux
+                    errors.push_back(relative(frame.scattering.at(x, 6 - y)[0], expected));
+                }
+        }
+        std::ranges::sort(errors);
+        const auto at = [&](double share) { return errors[std::size_t(share * double(errors.size() - 1))]; };
+        std::cout << heights << " height media, " << errors.size() << " rays: half within " << at(0.5) << ", 95% "
+                  << at(0.95) << ", 99% " << at(0.99) << ", all " << at(1) << '\n';
+        EXPECT_LE(at(0.95), 0.001);
+        EXPECT_LE(at(0.99), 0.01);
+        EXPECT_LE(at(1), 0.04);
     }
-    RecordProperty("worst", std::to_string(worst));
 }
 
 TEST_F(AnalyticFog, WhiteFurnaceKeepsItsEnergy) {

@@ -1,10 +1,12 @@
 #include "frame/resources.h"
 
+#include "engine/gl/program_limits.h"
 #include "media/froxel_tiles.h"
 
 namespace tyndall::volumetrics {
 
-void Resources::upload(const Settings& settings, const FrameMedia& media) {
+void Resources::upload(const Settings& settings, FrameMedia& media) {
+    media.data.loop_rounds = gl::loop_rounds();
     if (!nearest.id()) {
         nearest = gl::Sampler({.min_filter = GL_NEAREST, .mag_filter = GL_NEAREST}, "volumetrics nearest");
         linear = gl::Sampler({}, "volumetrics linear");

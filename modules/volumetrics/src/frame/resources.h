@@ -26,7 +26,7 @@ struct Resources {
         std::optional<TextureRef> noise_volume;
     } this_frame;
 
-    void upload(const Settings& settings, const FrameMedia& media);
+    void upload(const Settings& settings, FrameMedia& media);
     /// No medium is in view: frees all but the samplers.
     void release();
     [[nodiscard]] std::size_t bytes() const;  ///< held between frames

@@ -31,7 +31,7 @@ Estimate add_analytic_fog(Frame& frame) {
 
 TechniqueDesc analytic_fog() {
     return {.name = "analytic_fog",
-            .help = "Fog in closed form with an unshadowed sun; no lamps, no local media.",
+            .help = "Fog in closed form with unshadowed suns; no lamps, no local media.",
             .settings = "fog_mode",
             .passes = {"volumetrics/analytic_fog"},
             .traits = {.local_media = false},

@@ -1,3 +1,4 @@
+#include "engine/gl/program_limits.h"
 #include "frame/resources.h"
 #include "techniques/froxel_history.h"
 #include "techniques/froxel_steps.h"
@@ -22,8 +23,11 @@ const ProgramDesc program{.name = "volumetrics/froxel_light",
                           .valid = is_permutation};
 const ProgramRegistry::Registration registration(program);
 
-/// Froxels of a group of froxel_light.comp: its columns, and RUN.
-constexpr glm::ivec3 group{16, 16, 8};
+/// Slices that one invocation lights: one where lamps are so many that a driver would end the loop over them early.
+int run_of_slices(const Frame& frame) {
+    constexpr std::size_t run = 8, rounds = 6;  // for a lamp and slice, see expect_lamps()
+    return frame.inputs.lamps.size() > gl::loop_rounds() / (rounds * run) ? 1 : run;
+}
 
 }  // namespace
 
@@ -43,6 +47,8 @@ FroxelLight add_froxel_light(Frame& frame, const FroxelMedia& media, TextureRef 
     // Several height media are rare and slow: they have no program of their own without local media.
     const bool local =
         !frame.media.local.empty() || frame.resources.light_volumes.any() || height_media_axis(frame.media) > 1;
+    const int run = run_of_slices(frame);
+    const glm::ivec3 group{16, 16, run};
     frame.add({.name = "volumetrics/froxel_light",
                .program = frame.program(program, {{"LOCAL_MEDIA", local}, {"FROXEL_HISTORY", keeps}}),
                .sources = {{columns},
@@ -53,7 +59,8 @@ FroxelLight add_froxel_light(Frame& frame, const FroxelMedia& media, TextureRef 
                .lit = true,
                .light_volumes = true,
                .set =
-                   [history](const PassContext&, const gl::Program& shader) {
+                   [history, run](const PassContext&, const gl::Program& shader) {
+                       shader.set("run", run);
                        if (history != nullptr) shader.set("visibility_jitter", history->jitter());
                    },
                .groups = (size + group - 1) / group});

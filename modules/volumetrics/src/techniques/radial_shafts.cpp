@@ -59,12 +59,13 @@ Estimate add(Frame& frame) {
 }  // namespace
 
 TechniqueDesc radial_shafts() {
-    return {.name = "radial_shafts",
-            .help = "Analytic fog whose sun is shadowed by what the screen shows; no lamps, no local media.",
-            .settings = "radial_",
-            .passes = {"volumetrics/analytic_fog", "volumetrics/radial_visibility", "volumetrics/radial_shafts"},
-            .traits = {.sampling = Sampling::per_pixel, .any_resolution = true, .local_media = false},
-            .add = add};
+    return {
+        .name = "radial_shafts",
+        .help = "Analytic fog whose brightest sun is shadowed by what the screen shows; no lamps, no local media.",
+        .settings = "radial_",
+        .passes = {"volumetrics/analytic_fog", "volumetrics/radial_visibility", "volumetrics/radial_shafts"},
+        .traits = {.sampling = Sampling::per_pixel, .any_resolution = true, .local_media = false},
+        .add = add};
 }
 
 }  // namespace tyndall::volumetrics
