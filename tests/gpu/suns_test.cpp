@@ -94,6 +94,7 @@ TEST_F(Suns, AllLightTheAirInEveryTechnique) {
                                                {"particles", 0.1},
                                                {"analytic_fog", 0.01},
                                                {"radial_shafts", 0.01},
+                                               {"epipolar", 0.01},
                                                {"reference", 0.01}}) {
         volumetrics_.settings.technique = technique;
         for (const bool wall : {true, false}) {
@@ -109,6 +110,28 @@ TEST_F(Suns, AllLightTheAirInEveryTechnique) {
             EXPECT_NEAR(middle("scattering") / expected, 1, tolerance) << technique << (wall ? ", wall" : ", sky");
         }
     }
+}
+
+TEST_F(Suns, EachHasItsShadowsInTheAirOfEpipolar) {
+    add_suns(true);
+    builder_.ground({0, 0, 0}, 20);
+    for (int i = -2; i <= 2; ++i) builder_.box({3 * i, 4, 0}, {1, 0.1f, 4});  // slats
+    builder_.scene.media.push_back({.sigma_s = glm::vec3(0.03f)});
+    volumetrics_.settings.temporal.mode = volumetrics::Temporal::off;
+    view_ = look_at({-7, 2, 8}, {0, 2.5f, 0}, 1.0f, 0.1f, 16.0f / 9);
+    options_.layer = "scattering";
+    renderer_.prepare(builder_.finish());
+    const auto draw = [&](const char* technique, bool shadows) {
+        volumetrics_.settings.technique = technique;
+        options_.render.shadows = shadows;
+        renderer_.render(builder_.scene, view_, {48, 27}, options_);
+        return renderer_.read_layer();
+    };
+    const Image truth = draw("reference", true);
+    const double error = relative_rmse(draw("epipolar", true), truth);
+    const double unshadowed = relative_rmse(draw("epipolar", false), truth);
+    EXPECT_LT(error, 0.04);
+    EXPECT_GT(unshadowed, 5 * error);
 }
 
 // Many more lamps than a software rasteriser's loops have rounds for, all in one place and lighting all of the air

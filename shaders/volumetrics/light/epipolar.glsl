@@ -19,10 +19,10 @@
 
 const float EPIPOLAR_RADIUS = 2.0;        // m
 const float EPIPOLAR_LARGEST = 1.0e9;     // slope
-const int EPIPOLAR_ROW_BITS = 12;         // 4096 nodes a row of the texture
+const int EPIPOLAR_ROW_BITS = 12;         // 4096 texels a row of a texture
 const float EPIPOLAR_TWO_PI = 6.28318531;
 
-// The lines of one light (modules/volumetrics/src/light/epipolar.h): row 0 of the sun, row 1 + i of lamp i.
+// The lines of one light (modules/volumetrics/src/light/epipolar.h): light 0 is the sun, 1 + i lamp i.
 struct EpipolarLines {
     vec3 axis;         // unit, from the eye to the light
     float distance;    // of the lamp, m; 0: parallel light
@@ -34,15 +34,14 @@ struct EpipolarLines {
     int nodes;         // index of the first line's
 };
 
-EpipolarLines epipolar_lines(sampler2D table, int row) {
-    vec4 a = texelFetch(table, ivec2(0, row), 0);
-    vec4 b = texelFetch(table, ivec2(1, row), 0);
-    vec4 c = texelFetch(table, ivec2(2, row), 0);
-    return EpipolarLines(a.xyz, a.w, b.xyz, b.w, c.x, int(c.y), int(c.z), int(c.w));
-}
+// Where the i-th entry of a list lies in its texture.
+ivec2 epipolar_texel(int i) { return ivec2(i & ((1 << EPIPOLAR_ROW_BITS) - 1), i >> EPIPOLAR_ROW_BITS); }
 
-ivec2 epipolar_texel(int node) {
-    return ivec2(node & ((1 << EPIPOLAR_ROW_BITS) - 1), node >> EPIPOLAR_ROW_BITS);
+EpipolarLines epipolar_lines(sampler2D table, int light) {
+    vec4 a = texelFetch(table, epipolar_texel(3 * light), 0);
+    vec4 b = texelFetch(table, epipolar_texel(3 * light + 1), 0);
+    vec4 c = texelFetch(table, epipolar_texel(3 * light + 2), 0);
+    return EpipolarLines(a.xyz, a.w, b.xyz, b.w, c.x, int(c.y), int(c.z), int(c.w));
 }
 
 #endif

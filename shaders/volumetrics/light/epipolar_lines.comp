@@ -10,15 +10,15 @@ const int THREADS = 64;
 layout(local_size_x = THREADS) in;
 layout(rg32f, binding = 0) writeonly uniform image2D nodes;
 layout(binding = 0) uniform sampler2D table;
-uniform int row;
+uniform int light;  // 0 the sun, 1 + i lamp i
 
 shared vec2 node[MOST_CELLS];
 
 float sun_slope(EpipolarLines lines, vec3 across, float place) {
+    uint lamp = uint(max(light - 1, 0));
     float radius = EPIPOLAR_RADIUS * (exp(place / lines.cells_per_unit) - 1.0);
-    vec3 to_light = lines.axis;
     vec3 world = volumetrics.eye.xyz + across * radius;
-    float height = row == 0 ? sun_occluder(world) : light_occluder(uint(row - 1), light_at(uint(row - 1)), world);
+    float height = light == 0 ? sun_occluder(world) : light_occluder(lamp, light_at(lamp), world);
     return height / radius;
 }
 
@@ -26,10 +26,11 @@ float lamp_slope(EpipolarLines lines, vec3 across, float place) {
     float angle = place / lines.cells_per_unit;
     float cosine = cos(angle);
     float sine = sin(angle);
-    GpuLight light = light_at(uint(row - 1));
-    vec3 world = light.position_range.xyz + sine * across - cosine * lines.axis;
-    float reach = 1.0 - light_occluder(uint(row - 1), light, world);
-    float range = light.position_range.w > 0.0 ? light.position_range.w : 0.5 * NO_OCCLUDER;
+    uint lamp = uint(light - 1);
+    GpuLight lamp_light = light_at(lamp);
+    vec3 world = lamp_light.position_range.xyz + sine * across - cosine * lines.axis;
+    float reach = 1.0 - light_occluder(lamp, lamp_light, world);
+    float range = lamp_light.position_range.w > 0.0 ? lamp_light.position_range.w : 0.5 * NO_OCCLUDER;
     if (reach >= range) return -EPIPOLAR_LARGEST;  // wherever a view ray crosses it
     return (lines.distance - reach * cosine) / max(reach * sine, 1.0e-9);
 }
@@ -53,7 +54,7 @@ void merge(int root, int first, int count, int stride, int level) {
 }
 
 void main() {
-    EpipolarLines lines = epipolar_lines(table, row);
+    EpipolarLines lines = epipolar_lines(table, light);
     int line = int(gl_WorkGroupID.x);
     int thread = int(gl_LocalInvocationID.x);
     float angle = (float(line) + 0.5) / lines.lines_per_radian;

@@ -21,8 +21,8 @@ struct EpipolarRay {
     float cells_per_unit;
 };
 
-EpipolarRay epipolar_ray(int row, vec3 direction) {
-    EpipolarLines lines = epipolar_lines(epipolar_table, row);
+EpipolarRay epipolar_ray(int light, vec3 direction) {
+    EpipolarLines lines = epipolar_lines(epipolar_table, light);
     float cosine = dot(direction, lines.axis);
     vec3 across = direction - cosine * lines.axis;
     float sine = length(across);

@@ -87,7 +87,7 @@ TEST_F(EpipolarPlanTest, ALampFarAwayTakesFewerLinesThanOneRoundTheEye) {
                     {.index = 7, .position = {0, 0, -2}, .range = 5}};
     const EpipolarPlan found = plan();
     ASSERT_EQ(found.lights.size(), 2U);
-    EXPECT_EQ(found.lights[0].row, 4U);
+    EXPECT_EQ(found.lights[0].index, 4U);
     EXPECT_LT(4 * found.lights[0].lines, found.lights[1].lines);
     const auto table = found.table();
     ASSERT_EQ(table.size(), 3U * 9);

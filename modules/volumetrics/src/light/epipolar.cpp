@@ -128,9 +128,9 @@ EpipolarPlan plan_epipolar(const Inputs& inputs, const Settings& settings, glm::
     EpipolarPlan plan;
     for (int coarser = 0; coarser == 0 || (plan.nodes > most_epipolar_nodes && coarser < 8); ++coarser) {
         plan = {};
-        const auto add = [&plan](EpipolarLines lines, std::uint32_t row) {
+        const auto add = [&plan](EpipolarLines lines, std::uint32_t index) {
             if (lines.cells == 0) return;
-            lines.row = row;
+            lines.index = index;
             lines.nodes = plan.nodes;
             plan.nodes += lines.lines * 2 * lines.cells;
             plan.lights.push_back(lines);
@@ -143,14 +143,14 @@ EpipolarPlan plan_epipolar(const Inputs& inputs, const Settings& settings, glm::
 }
 
 std::vector<glm::vec4> EpipolarPlan::table() const {
-    std::uint32_t rows = 1;
-    for (const EpipolarLines& light : lights) rows = std::max(rows, light.row + 1);
-    std::vector<glm::vec4> texels(3 * std::size_t{rows}, glm::vec4(0));
+    std::uint32_t count = 1;
+    for (const EpipolarLines& light : lights) count = std::max(count, light.index + 1);
+    std::vector<glm::vec4> texels(3 * std::size_t{count}, glm::vec4(0));
     for (const EpipolarLines& light : lights) {
-        glm::vec4* row = &texels[3 * std::size_t{light.row}];
-        row[0] = {light.axis, light.distance};
-        row[1] = {light.first, light.lines_per_radian};
-        row[2] = {light.cells_per_unit, light.lines, light.cells, light.nodes};
+        glm::vec4* texel = &texels[3 * std::size_t{light.index}];
+        texel[0] = {light.axis, light.distance};
+        texel[1] = {light.first, light.lines_per_radian};
+        texel[2] = {light.cells_per_unit, light.lines, light.cells, light.nodes};
     }
     return texels;
 }

@@ -11,10 +11,10 @@ namespace tyndall::volumetrics {
 
 /// Lines of one light through the picture, as shaders/volumetrics/light/epipolar.glsl has them.
 struct EpipolarLines {
-    std::uint32_t row = 0;  ///< of the table: 0 the sun, 1 + Lamp::index a lamp
-    glm::vec3 axis{0};      ///< unit, from the eye to the light
-    float distance = 0;     ///< m, of a lamp; 0: its light is parallel
-    glm::vec3 first{0};     ///< unit, across the axis: where the first line begins
+    std::uint32_t index = 0;  ///< 0 the sun, 1 + Lamp::index a lamp
+    glm::vec3 axis{0};        ///< unit, from the eye to the light
+    float distance = 0;       ///< m, of a lamp; 0: its light is parallel
+    glm::vec3 first{0};       ///< unit, across the axis: where the first line begins
     float lines_per_radian = 0;
     float cells_per_unit = 0;
     int lines = 0;
@@ -26,7 +26,7 @@ struct EpipolarPlan {
     std::vector<EpipolarLines> lights;
     int nodes = 0;  ///< of all lines, two a cell
 
-    /// Three RGBA texels a row, from row 0 to the last one of `lights`; zero: no lines.
+    /// Three RGBA texels a light, from index 0 to the largest one of `lights`; zero: no lines.
     [[nodiscard]] std::vector<glm::vec4> table() const;
 };
 

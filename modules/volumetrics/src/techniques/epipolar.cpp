@@ -37,7 +37,10 @@ const ProgramDesc program{.name = "volumetrics/epipolar",
                           .valid = is_valid};
 const ProgramRegistry::Registration registration(program);
 
-constexpr int row_of_nodes = 4096;  // EPIPOLAR_ROW_BITS
+constexpr int texels_a_row = 4096;  // EPIPOLAR_ROW_BITS
+int rows_of(int texels) {
+    return std::max((texels + texels_a_row - 1) / texels_a_row, 1);
+}
 
 /// The table of lights, which the CPU writes.
 struct KeptTable : Kept {
@@ -46,8 +49,10 @@ struct KeptTable : Kept {
 };
 
 TextureRef upload_table(Frame& frame, const EpipolarPlan& plan) {
-    const std::vector<glm::vec4> texels = plan.table();
-    const gl::TextureDesc desc{.format = GL_RGBA32F, .size = {3, static_cast<int>(texels.size() / 3), 1}};
+    std::vector<glm::vec4> texels = plan.table();
+    const int rows = rows_of(static_cast<int>(texels.size()));
+    texels.resize(static_cast<std::size_t>(rows) * texels_a_row);
+    const gl::TextureDesc desc{.format = GL_RGBA32F, .size = {texels_a_row, rows, 1}};
     gl::Texture& texture = frame.kept<KeptTable>().texture;
     if (!texture || texture.desc() != desc) texture = gl::Texture(desc, "volumetrics epipolar lights");
     texture.upload(0, GL_RGBA, GL_FLOAT, texels.data());
@@ -55,9 +60,8 @@ TextureRef upload_table(Frame& frame, const EpipolarPlan& plan) {
 }
 
 TextureRef add_lines(Frame& frame, const EpipolarPlan& plan, TextureRef table) {
-    const int rows = std::max((plan.nodes + row_of_nodes - 1) / row_of_nodes, 1);
-    TextureRef nodes =
-        frame.passes.create("volumetrics/epipolar_nodes", {.format = GL_RG32F, .size = {row_of_nodes, rows, 1}});
+    TextureRef nodes = frame.passes.create("volumetrics/epipolar_nodes",
+                                           {.format = GL_RG32F, .size = {texels_a_row, rows_of(plan.nodes), 1}});
     const gl::Program& lines = frame.program(lines_program);
     frame.add({.name = "volumetrics/epipolar_lines",
                .program = lines,
@@ -66,7 +70,7 @@ TextureRef add_lines(Frame& frame, const EpipolarPlan& plan, TextureRef table) {
                .lit = true,
                .draw = [&lines, lights = plan.lights] {
                    for (const EpipolarLines& light : lights) {
-                       lines.set("row", static_cast<int>(light.row));
+                       lines.set("light", static_cast<int>(light.index));
                        glDispatchCompute(static_cast<GLuint>(light.lines), 1, 1);
                    }
                }});
