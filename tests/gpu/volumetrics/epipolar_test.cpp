@@ -23,7 +23,7 @@ class VolumetricsEpipolar : public GlTest {
         settings.technique = "epipolar";
         settings.march.max_distance = 60;
         settings.epipolar.spacing = settings.epipolar.lamp_spacing = 0.25F;
-        settings.epipolar.lamp_cells = 512;
+        settings.epipolar.lamp_rays = 1024;
         host.size = {48, 27};
         host.has_sun = true;
         host.sun_direction = glm::normalize(glm::vec3(0.3F, -1, 0.2F));

@@ -95,13 +95,27 @@ TEST_F(EpipolarPlanTest, ALampFarAwayTakesFewerLinesThanOneRoundTheEye) {
     EXPECT_EQ(table[3 * 5 + 2].z, 0) << "a lamp out of view has none";
 }
 
-TEST_F(EpipolarPlanTest, ManyLampsShareTheBudget) {
+TEST_F(EpipolarPlanTest, LampsTakeNoMoreRaysThanTheyMay) {
     for (std::uint32_t i = 0; i < 500; ++i)
         inputs.lamps.push_back({.index = i, .position = {0.01F * static_cast<float>(i), 0, -3}, .range = 20});
-    const EpipolarPlan found = plan();
-    EXPECT_EQ(found.lights.size(), 500U);
-    EXPECT_LE(found.nodes, most_epipolar_nodes);
-    EXPECT_GT(found.nodes, most_epipolar_nodes / 8);
+    for (const int rays : {8, 32, 128}) {
+        settings.epipolar.lamp_rays = rays;
+        const EpipolarPlan found = plan();
+        EXPECT_EQ(found.lights.size(), 500U);
+        EXPECT_LE(found.nodes, 2 * 320 * 180 * rays);
+        EXPECT_GT(found.nodes, 2 * 320 * 180 * rays / 5);
+    }
+    settings.epipolar.lamp_rays = 1024;
+    settings.epipolar.lamp_cells = 2048;
+    EXPECT_LE(plan().nodes, most_epipolar_nodes);
+}
+
+TEST_F(EpipolarPlanTest, LargePicturesKeepTheSunWithinMemory) {
+    sun_at({0.1F, 0.1F, -1});
+    pixels = {8192, 4608};
+    settings.epipolar.spacing = 0.25F;
+    settings.epipolar.cells = 2048;
+    EXPECT_LE(plan().nodes, most_epipolar_nodes / 2);
 }
 
 TEST_F(EpipolarPlanTest, ALampAtTheEyeNeedsNoLines) {

@@ -116,8 +116,9 @@ struct ShaftGeometrySettings {
 struct EpipolarSettings {
     float spacing = 1;       ///< px, 0.25 … 16
     int cells = 1024;        ///< of the sun: a power of two, 64 … 2048
-    float lamp_spacing = 4;  ///< px, 0.25 … 64
-    int lamp_cells = 128;    ///< a power of two, 16 … 2048
+    float lamp_spacing = 1;  ///< px, 0.25 … 64
+    int lamp_cells = 512;    ///< a power of two, 16 … 2048
+    int lamp_rays = 32;      ///< 1 … 1024 a pixel, of all lamps
 };
 struct ReferenceSettings {
     int steps = 1024;       ///< 16 … 16384 a ray

@@ -328,6 +328,12 @@ SettingsTable& growing_settings_table() {
                         {"epipolar_lamp_cells", "Epipolar lamp cells",
                          "Technique epipolar: a lamp's rays along each line, over half a turn."},
                         {16, 32, 64, 128, 256, 512, 1024, 2048}, Effect::resource)
+            .integer(
+                in(&S::epipolar, &EpipolarSettings::lamp_rays),
+                {"epipolar_lamp_rays", "Epipolar lamp rays",
+                 "Technique epipolar: most rays of all lamps together, a pixel of the picture. Where lamps would "
+                 "take more, all of them have wider spacings and fewer cells."},
+                1, 1024, Effect::resource, Scale::logarithmic)
             .integer(in(&S::reference, &ReferenceSettings::steps),
                      {"reference_steps", "Reference steps",
                       "Samples per ray of the technique reference, where its error falls in proportion; taken as a "

@@ -95,8 +95,8 @@ EpipolarLines lines_round(const Picture& picture, glm::vec3 axis, float most_ang
     return lines;
 }
 
-EpipolarLines sun_lines(const Picture& picture, glm::vec3 to_sun, const Settings& settings) {
-    EpipolarLines lines = lines_round(picture, to_sun, two_pi, settings.epipolar.spacing, 512);
+EpipolarLines sun_lines(const Picture& picture, glm::vec3 to_sun, const Settings& settings, float spacing) {
+    EpipolarLines lines = lines_round(picture, to_sun, two_pi, spacing, 512);
     const float farthest = settings.march.max_distance * largest_sine(picture, to_sun, two_pi);
     lines.cells = settings.epipolar.cells;
     lines.cells_per_unit = static_cast<float>(lines.cells) / std::log1p(farthest / sun_radius);
@@ -109,7 +109,9 @@ EpipolarLines lamp_lines(const Picture& picture, const Inputs& inputs, const Lam
     const glm::vec3 to_lamp = lamp.position - inputs.eye;
     const float distance = glm::length(to_lamp);
     if (distance < at_the_eye) return {};
-    if (distance > 0.5F * SUN_LAMP_DISTANCE) return sun_lines(picture, to_lamp / distance, settings);
+    if (distance > 0.5F * SUN_LAMP_DISTANCE)
+        return sun_lines(picture, to_lamp / distance, settings,
+                         settings.epipolar.spacing * std::exp2(static_cast<float>(coarser)));
     const bool inside = lamp.range <= 0 || lamp.range >= distance;
     const float most_angle = inside ? two_pi : std::asin(lamp.range / distance);
     const float factor = std::exp2(static_cast<float>(coarser));
@@ -121,25 +123,41 @@ EpipolarLines lamp_lines(const Picture& picture, const Inputs& inputs, const Lam
     return lines;
 }
 
+std::int64_t nodes_of(const EpipolarLines& lines) {
+    return std::int64_t{2} * lines.lines * lines.cells;
+}
+
 }  // namespace
+
+void EpipolarPlan::add(EpipolarLines lines, std::uint32_t index) {
+    if (lines.cells == 0) return;
+    lines.index = index;
+    lines.nodes = static_cast<int>(nodes);
+    nodes += nodes_of(lines);
+    lights.push_back(lines);
+}
 
 EpipolarPlan plan_epipolar(const Inputs& inputs, const Settings& settings, glm::ivec2 pixels) {
     const Picture picture = picture_of(inputs, pixels);
-    EpipolarPlan plan;
-    for (int coarser = 0; coarser == 0 || (plan.nodes > most_epipolar_nodes && coarser < 8); ++coarser) {
-        plan = {};
-        const auto add = [&plan](EpipolarLines lines, std::uint32_t index) {
-            if (lines.cells == 0) return;
-            lines.index = index;
-            lines.nodes = plan.nodes;
-            plan.nodes += lines.lines * 2 * lines.cells;
-            plan.lights.push_back(lines);
-        };
-        if (inputs.has_sun) add(sun_lines(picture, -inputs.sun_direction, settings), 0);
-        for (const Lamp& lamp : inputs.lamps)
-            add(lamp_lines(picture, inputs, lamp, settings, coarser), lamp.index + 1);
+    EpipolarPlan with_sun;
+    if (inputs.has_sun) {
+        float spacing = settings.epipolar.spacing;
+        EpipolarLines sun = sun_lines(picture, -inputs.sun_direction, settings, spacing);
+        while (nodes_of(sun) > most_epipolar_nodes / 2)
+            sun = sun_lines(picture, -inputs.sun_direction, settings, spacing *= 2);
+        with_sun.add(sun, 0);
     }
-    return plan;
+    constexpr int least_pixels = 128 * 128;
+    const std::int64_t rays =
+        std::int64_t{std::max(pixels.x * pixels.y, least_pixels)} * settings.epipolar.lamp_rays;
+    const std::int64_t most = std::min(with_sun.nodes + 2 * rays, std::int64_t{most_epipolar_nodes});
+    constexpr int coarsest = 8;
+    for (int coarser = 0;; ++coarser) {
+        EpipolarPlan plan = with_sun;
+        for (const Lamp& lamp : inputs.lamps)
+            plan.add(lamp_lines(picture, inputs, lamp, settings, coarser), lamp.index + 1);
+        if (plan.nodes <= most || coarser == coarsest) return plan;
+    }
 }
 
 std::vector<glm::vec4> EpipolarPlan::table() const {

@@ -24,15 +24,18 @@ struct EpipolarLines {
 
 struct EpipolarPlan {
     std::vector<EpipolarLines> lights;
-    int nodes = 0;  ///< of all lines, two a cell
+    std::int64_t nodes = 0;  ///< of all lines, two a cell
 
+    void add(EpipolarLines lines, std::uint32_t index);  ///< nothing without cells
     /// Three RGBA texels a light, from index 0 to the largest one of `lights`; zero: no lines.
     [[nodiscard]] std::vector<glm::vec4> table() const;
 };
 
 /// The lines that the lights in view take. Angles round a light's axis have fixed places in the world, so that
-/// lines stay where they are as the camera turns. `pixels`: that the picture is computed at. What a spacing and a
-/// number of cells would take beyond most_epipolar_nodes is taken by halving cells and doubling spacings of lamps.
+/// lines stay where they are as the camera turns. `pixels`: that the picture is computed at. Where lamps
+/// would take more rays than Settings say, all of them have their spacings doubled and their cells halved until
+/// they do not (a picture counts as 128 x 128 pixels at least); the sun's spacing is doubled where it would take
+/// half of most_epipolar_nodes.
 [[nodiscard]] EpipolarPlan plan_epipolar(const Inputs& inputs, const Settings& settings, glm::ivec2 pixels);
 
 inline constexpr int most_epipolar_nodes = 1 << 24;  ///< 128 MiB

@@ -38,8 +38,8 @@ const ProgramDesc program{.name = "volumetrics/epipolar",
 const ProgramRegistry::Registration registration(program);
 
 constexpr int texels_a_row = 4096;  // EPIPOLAR_ROW_BITS
-int rows_of(int texels) {
-    return std::max((texels + texels_a_row - 1) / texels_a_row, 1);
+int rows_of(std::int64_t texels) {
+    return static_cast<int>(std::max<std::int64_t>((texels + texels_a_row - 1) / texels_a_row, 1));
 }
 
 /// The table of lights, which the CPU writes.
@@ -50,7 +50,7 @@ struct KeptTable : Kept {
 
 TextureRef upload_table(Frame& frame, const EpipolarPlan& plan) {
     std::vector<glm::vec4> texels = plan.table();
-    const int rows = rows_of(static_cast<int>(texels.size()));
+    const int rows = rows_of(static_cast<std::int64_t>(texels.size()));
     texels.resize(static_cast<std::size_t>(rows) * texels_a_row);
     const gl::TextureDesc desc{.format = GL_RGBA32F, .size = {texels_a_row, rows, 1}};
     gl::Texture& texture = frame.kept<KeptTable>().texture;
