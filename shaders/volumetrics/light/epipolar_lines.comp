@@ -19,7 +19,7 @@ float sun_slope(EpipolarLines lines, vec3 across, float place) {
     float radius = EPIPOLAR_RADIUS * (exp(place / lines.cells_per_unit) - 1.0);
     vec3 world = volumetrics.eye.xyz + across * radius;
     float height = light == 0 ? sun_occluder(world) : light_occluder(lamp, light_at(lamp), world);
-    return height / radius;
+    return height > -0.5 * NO_OCCLUDER ? height / radius : -EPIPOLAR_LARGEST;
 }
 
 float lamp_slope(EpipolarLines lines, vec3 across, float place) {

@@ -175,7 +175,7 @@ void march_segment(Ray ray, float a, float b, float offset, inout Extinction sun
             float fall = sunlight_fall(ray, segment, light.x);
             sun_light.whole += gathered;
 #if EPIPOLAR
-            sun_light.visible += sun_share(ray, begin, end, fall, offset) * gathered;
+            sun_light.visible += sun_share(ray, begin, end, fall, offset) * min(gathered, 1.0e30);
 #else
             offer(begin, end, mean_channel(min(gathered, 1.0e30)), fall, place);
             sun += gathered;

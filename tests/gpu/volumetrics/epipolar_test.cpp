@@ -98,6 +98,16 @@ TEST_F(VolumetricsEpipolar, UnshadowedItIsTheClosedForm) {
     EXPECT_LE(nodes_a_ray(), 2 * 3.0) << "one node for each light and segment";
 }
 
+TEST_F(VolumetricsEpipolar, RaysAlongTheSunlightAreLit) {
+    host.shadows = 0;
+    host.size = {1, 1};
+    for (const float z : {-1.0F, 1.0F}) {
+        host.sun_direction = {0, 0, z};
+        const float march = render("ray_march").scattering.at(0, 0)[0];
+        EXPECT_NEAR(render("epipolar").scattering.at(0, 0)[0], march, 1e-3F * march) << z;
+    }
+}
+
 // In the picture, beside it, behind the eye, before and behind the wall; a spot with the eye in its cone and out of
 // it.
 TEST_F(VolumetricsEpipolar, LampsBehindAWall) {
