@@ -116,7 +116,7 @@ INSTANTIATE_TEST_SUITE_P(
         Guard{"UpsampleSum", "shaders/volumetrics/reconstruction/upsample.frag", "total = dot(weights, vec4(1.0));",
               "total = 1.1 * dot(weights, vec4(1.0));", "low resolution at pixel", 99, 308},
         Guard{"HistoryMean", "shaders/volumetrics/reconstruction/temporal.frag", "dithered_half(past + (now",
-              "dithered_half(1.05 * past + (now", "history at pixel", 1, 196}),
+              "dithered_half(0.95 * past + (now", "history at pixel", 1, 216}),
     [](const auto& info) { return info.param.name; });
 
 }  // namespace
