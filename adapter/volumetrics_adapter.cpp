@@ -74,7 +74,8 @@ void add_lights(volumetrics::Inputs& inputs, const FrameContext& frame, const Li
                                 .position = lamp.position,
                                 .range = lamp.range,
                                 .axis = lamp.axis,
-                                .cos_outer = lamp.cos_outer});
+                                .cos_outer = lamp.cos_outer,
+                                .shadow = frame.settings.shadows && frame.scene.lights[lamp.light].shadow});
     }
     inputs.light_textures = sources.textures;
     inputs.light_buffers = sources.buffers;

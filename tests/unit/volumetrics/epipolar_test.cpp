@@ -123,5 +123,10 @@ TEST_F(EpipolarPlanTest, ALampAtTheEyeNeedsNoLines) {
     EXPECT_TRUE(plan().lights.empty());
 }
 
+TEST_F(EpipolarPlanTest, ALampWithoutAShadowNeedsNoLines) {
+    inputs.lamps = {{.index = 0, .position = {0, 0, -2}, .range = 5, .shadow = false}};
+    EXPECT_TRUE(plan().lights.empty());
+}
+
 }  // namespace
 }  // namespace tyndall::volumetrics

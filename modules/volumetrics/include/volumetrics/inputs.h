@@ -49,6 +49,7 @@ struct Lamp {
     float range = 0;        ///< m; 0: none
     glm::vec3 axis{0};      ///< unit, of a spot's cone
     float cos_outer = -1;   ///< of its half angle; -1: a point lamp
+    bool shadow = true;     ///< casts one
 };
 
 /// What the host gives each frame. All textures are borrowed.

@@ -108,7 +108,7 @@ EpipolarLines lamp_lines(const Picture& picture, const Inputs& inputs, const Lam
                          int coarser) {
     const glm::vec3 to_lamp = lamp.position - inputs.eye;
     const float distance = glm::length(to_lamp);
-    if (distance < at_the_eye) return {};
+    if (!lamp.shadow || distance < at_the_eye) return {};
     if (distance > 0.5F * SUN_LAMP_DISTANCE)
         return sun_lines(picture, to_lamp / distance, settings,
                          settings.epipolar.spacing * std::exp2(static_cast<float>(coarser)));

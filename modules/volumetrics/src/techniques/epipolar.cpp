@@ -1,6 +1,6 @@
 #include "light/epipolar.h"
 
-#include <algorithm>
+#include <bit>
 
 #include "engine/gl/texture.h"
 #include "frame/resources.h"
@@ -38,8 +38,9 @@ const ProgramDesc program{.name = "volumetrics/epipolar",
 const ProgramRegistry::Registration registration(program);
 
 constexpr int texels_a_row = 4096;  // EPIPOLAR_ROW_BITS
+/// A power of two: the pool keeps what earlier frames had, and each of them has another number of lines.
 int rows_of(std::int64_t texels) {
-    return static_cast<int>(std::max<std::int64_t>((texels + texels_a_row - 1) / texels_a_row, 1));
+    return static_cast<int>(std::bit_ceil(static_cast<std::uint64_t>((texels + texels_a_row - 1) / texels_a_row)));
 }
 
 /// The table of lights, which the CPU writes.
@@ -60,6 +61,10 @@ TextureRef upload_table(Frame& frame, const EpipolarPlan& plan) {
 }
 
 TextureRef add_lines(Frame& frame, const EpipolarPlan& plan, TextureRef table) {
+    if (plan.lights.empty()) {
+        frame.skip("volumetrics/epipolar_lines", "no light in view that casts shadows");
+        return {};
+    }
     TextureRef nodes = frame.passes.create("volumetrics/epipolar_nodes",
                                            {.format = GL_RG32F, .size = {texels_a_row, rows_of(plan.nodes), 1}});
     const gl::Program& lines = frame.program(lines_program);
