@@ -30,6 +30,7 @@ volumetrics::Shape shape_of(const Medium& bounded) {
             return volumetrics::Shape::box;
         case Medium::Shape::global:
         case Medium::Shape::height:
+        case Medium::Shape::grid:
             break;
     }
     throw Error(fmt::format("{} medium: a bounded one expected", name_of(bounded.shape)));

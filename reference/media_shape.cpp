@@ -31,6 +31,7 @@ bool is_box(Medium::Shape shape) {
             return false;
         case Medium::Shape::global:
         case Medium::Shape::height:
+        case Medium::Shape::grid:
             break;
     }
     throw Error(fmt::format("reference: {} medium, a bounded one expected", name_of(shape)));

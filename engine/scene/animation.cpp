@@ -76,6 +76,9 @@ void animate(Scene& scene, double time, const std::string& except) {
         const double looped = duration > 0 ? time - std::floor(time / duration) * duration : 0;
         apply(scene, animation, static_cast<float>(looped));
     }
+    for (Medium& medium : scene.media)
+        if (medium.shape == Medium::Shape::grid)
+            medium.center = glm::vec3(glm::dvec3(medium.center_at_start) + time * glm::dvec3(medium.wind));
     update_world_transforms(scene);
 }
 

@@ -203,7 +203,19 @@ bool is_bounded(const Medium& medium) {
     return medium.shape != Medium::Shape::global && medium.shape != Medium::Shape::height;
 }
 
+glm::dmat4 index_to_world(const Medium& medium) {
+    glm::dmat4 to_world = glm::mat4_cast(glm::normalize(glm::dquat(medium.rotation)));
+    to_world *= glm::dmat4(glm::dmat3(double(medium.scale)));
+    to_world[3] = glm::dvec4(medium.center, 1);
+    return to_world * medium.grid->index_to_grid;
+}
+
 Aabb world_bounds(const Medium& bounded) {
+    if (bounded.shape == Medium::Shape::grid) {
+        const glm::vec3 reach(bounded.nearest ? 0.5F : 1.0F);
+        return transformed({glm::vec3(bounded.grid->lower) - reach, glm::vec3(bounded.grid->upper) + reach},
+                           glm::mat4(index_to_world(bounded)));
+    }
     glm::mat4 to_world = glm::mat4_cast(bounded.rotation);
     to_world[3] = glm::vec4(bounded.center, 1);
     return transformed({-bounded.half_extent, bounded.half_extent}, to_world);

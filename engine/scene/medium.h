@@ -3,18 +3,20 @@
 #include <filesystem>
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
+#include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "engine/scene/aabb.h"
+#include "engine/scene/density_grid.h"
 
 namespace tyndall {
 
 /// One entry of a media list, as in a media file or a scene's extras.media. Coefficients in 1/m at density 1.
 struct Medium {
-    enum class Shape { global, height, sphere, ellipsoid, box };
+    enum class Shape { global, height, sphere, ellipsoid, box, grid };
     Shape shape = Shape::global;
     glm::vec3 sigma_s{0}, sigma_a{0};
     float anisotropy = 0;   ///< g in (-1, 1); g > 0 scatters forward
@@ -29,7 +31,18 @@ struct Medium {
     int noise_seed = 0;
     bool height_profile = false;  ///< shape height, or a bounded shape with "height"
     float base = 0, falloff = 1;  ///< density exp(-(y - base) / falloff), m
+
+    // Shape grid: the density at world = center + rotation * (scale * (index_to_grid * voxel)) is that of the voxel
+    // times `density`. Softness, noise and height profile do not apply, nor does half_extent.
+    std::shared_ptr<const DensityGrid> grid;
+    float scale = 1, density = 1;
+    bool nearest = false;          ///< the voxel's value all over its cube; else trilinear between voxel centres
+    glm::vec3 wind{0};             ///< m/s: animate() moves the centre
+    glm::vec3 center_at_start{0};  ///< at time 0
 };
+
+/// Shape grid: voxel coordinates to world.
+[[nodiscard]] glm::dmat4 index_to_world(const Medium& grid);
 
 /// As media files call it.
 [[nodiscard]] std::string_view name_of(Medium::Shape shape);

@@ -153,7 +153,8 @@ struct Scene {
     [[nodiscard]] std::optional<std::size_t> sun() const;
 };
 
-/// Evaluates every animation except `except` (looped over its duration) at `time` and updates world transforms.
+/// Evaluates every animation except `except` (looped over its duration) at `time`, moves media with the wind and
+/// updates world transforms.
 void animate(Scene& scene, double time, const std::string& except = "flythrough");
 /// Evaluates one animation (clamped to its duration), for the fly-through.
 void animate_one(Scene& scene, const Animation& animation, double time);
