@@ -28,9 +28,10 @@ volumetrics::Shape shape_of(const Medium& bounded) {
             return volumetrics::Shape::ellipsoid;
         case Medium::Shape::box:
             return volumetrics::Shape::box;
+        case Medium::Shape::grid:
+            return volumetrics::Shape::grid;
         case Medium::Shape::global:
         case Medium::Shape::height:
-        case Medium::Shape::grid:
             break;
     }
     throw Error(fmt::format("{} medium: a bounded one expected", name_of(bounded.shape)));
@@ -50,11 +51,13 @@ volumetrics::Inputs view_inputs(const FrameContext& frame) {
 }
 
 /// Local media out of view are given too: they may dim the light of what is in view.
-void add_media(volumetrics::Inputs& inputs, const FrameContext& frame) {
+void add_media(volumetrics::Inputs& inputs, const FrameContext& frame, ModuleGrids& grids) {
+    grids.keep_those_of(frame.scene.media);
     for (const Medium& medium : frame.scene.media) {
         if (is_bounded(medium)) {
-            inputs.local.push_back(local_medium(medium));
-            inputs.local.back().emission /= frame.scene.light_unit();
+            volumetrics::LocalMedium& local = inputs.local.emplace_back(local_medium(medium));
+            local.emission /= frame.scene.light_unit();
+            if (medium.grid) set_grid(local, grids.of(medium.grid), index_to_world(medium), medium.nearest);
         } else if (frame.facts.has_global_medium) {
             inputs.global.push_back(global_medium(medium));
             inputs.global.back().emission /= frame.scene.light_unit();
@@ -92,16 +95,29 @@ volumetrics::LocalMedium local_medium(const Medium& bounded) {
             .half_extent = bounded.half_extent,
             .rotation = bounded.rotation,
             .softness = bounded.softness,
-            .sigma_s = bounded.sigma_s,
-            .sigma_a = bounded.sigma_a,
+            .sigma_s = bounded.density * bounded.sigma_s,
+            .sigma_a = bounded.density * bounded.sigma_a,
             .anisotropy = bounded.anisotropy,
-            .emission = bounded.emission,
+            .emission = bounded.density * bounded.emission,
             .noise_scale = bounded.noise_scale,
             .noise_amount = bounded.noise_amount,
             .noise_seed = bounded.noise_seed,
             .height = bounded.height_profile,
             .base = bounded.base,
             .falloff = bounded.falloff};
+}
+
+const std::shared_ptr<const volumetrics::DensityGrid>& ModuleGrids::of(
+    const std::shared_ptr<const DensityGrid>& grid) {
+    auto& made = grids_[grid];
+    if (!made) made = volumetrics::density_grid(grid->bricks, grid->values, grid);
+    return made;
+}
+
+void ModuleGrids::keep_those_of(const std::vector<Medium>& media) {
+    std::erase_if(grids_, [&](const auto& entry) {
+        return std::ranges::find(media, entry.first, &Medium::grid) == media.end();
+    });
 }
 
 bool VolumetricsAdapter::wants_motion(const FrameContext& frame) const {
@@ -112,7 +128,7 @@ void VolumetricsAdapter::add_before_lighting(FrameContext& frame, const GBuffer&
                                              LightSources& lights) {
     if (!module_) module_ = std::make_unique<volumetrics::Volumetrics>(frame.shaders);
     inputs_ = view_inputs(frame);
-    add_media(inputs_, frame);
+    add_media(inputs_, frame, grids_);
     add_lights(inputs_, frame, lights);
     inputs_.depth = gbuffer.depth;
     inputs_.motion = gbuffer.motion;

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <map>
+#include <memory>
+
 #include "engine/render/frame_module.h"
 #include "engine/scene/medium.h"
 #include "volumetrics/volumetrics.h"
@@ -8,6 +11,17 @@ namespace tyndall {
 
 /// In the module's terms. Throws Error for a medium that fills space.
 [[nodiscard]] volumetrics::LocalMedium local_medium(const Medium& bounded);
+
+/// The scene's density grids as the module has them, one for one.
+class ModuleGrids {
+  public:
+    [[nodiscard]] const std::shared_ptr<const volumetrics::DensityGrid>& of(
+        const std::shared_ptr<const DensityGrid>& grid);
+    void keep_those_of(const std::vector<Medium>& media);
+
+  private:
+    std::map<std::shared_ptr<const DensityGrid>, std::shared_ptr<const volumetrics::DensityGrid>> grids_;
+};
 
 /// The volumetrics module in a renderer's slot: translates the frame into the module's terms and its results back.
 /// A GL context must be current on destruction if there was a frame.
@@ -33,8 +47,9 @@ class VolumetricsAdapter : public FrameModule {
 
   private:
     std::unique_ptr<volumetrics::Volumetrics> module_;  ///< from the first frame on
-    volumetrics::Inputs inputs_;                        ///< of this frame
-    volumetrics::Outputs outputs_;                      ///< and what came of them
+    ModuleGrids grids_;
+    volumetrics::Inputs inputs_;    ///< of this frame
+    volumetrics::Outputs outputs_;  ///< and what came of them
 };
 
 }  // namespace tyndall

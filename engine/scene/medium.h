@@ -34,7 +34,7 @@ struct Medium {
 
     // Shape grid: the density at world = center + rotation * (scale * (index_to_grid * voxel)) is that of the voxel
     // times `density`. Softness, noise and height profile do not apply, nor does half_extent.
-    std::shared_ptr<const DensityGrid> grid;
+    std::shared_ptr<const DensityGrid> grid = nullptr;
     float scale = 1, density = 1;
     bool nearest = false;          ///< the voxel's value all over its cube; else trilinear between voxel centres
     glm::vec3 wind{0};             ///< m/s: animate() moves the centre

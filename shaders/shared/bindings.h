@@ -26,7 +26,9 @@
 #define BINDING_WORK 7                // every pass that counts its work
 
 // Texture units. 0 to 7 are a pass's own: a geometry pass's material is 0 to 4, the sky it mirrors 5. A pass that
-// includes shaders/volumetrics/frame/apply.glsl leaves 6 and 7 to it.
+// includes shaders/volumetrics/frame/apply.glsl leaves 6 and 7 to it, one of local media 4 and 5 to their grids.
+#define UNIT_GRID_PAGES 4  // and 5: grid.glsl
+#define UNIT_GRID_BRICKS 5
 #define UNIT_FOG_COLUMNS 6
 #define UNIT_FOG_RADIANCE 7
 #define UNIT_SUN_CASCADES 8       // 8 to 11: what lights are read from

@@ -8,6 +8,13 @@
 // volumetrics::Shape.
 #define SHAPE_ELLIPSOID 0
 #define SHAPE_BOX 1
+#define SHAPE_GRID 2
+
+// Density grids (grid.glsl): levels of detail, and words of a grid's header in the page table.
+#define GRID_LEVELS 12
+#define GRID_HEADER 32  // its number of levels, then of each level where its pages begin and its bricks along x | y << 10 | z << 20
+#define GRID_SIDE 8     // voxels of a brick, without those of the next one that it repeats
+#define GRID_ROW_BITS 12  // of the page table's texture
 
 // Tiles of the screen, each with a list of the local media that may be seen in it (ray_media.glsl).
 #define SCREEN_MEDIA_X 32
@@ -51,7 +58,11 @@ struct LocalMedium {
     vec4 sigma_a_shape;    // rgb 1/m at density 1, w SHAPE_*
     vec4 emission_noise;   // rgb radiance per metre at density 1, w noise amount 0..1
     vec4 noise_height;     // x noise scale (m), z base (m), w falloff (m); falloff 0 = no height profile
-    uvec4 noise_seed;      // x
+    uvec4 noise_seed;      // x; shape grid: y number of the grid, z 1: nearest
+    vec4 grid_x;           // shape grid: of a point p of the shape, dot(grid_x, (p, 1)) is the x of its voxel
+    vec4 grid_y;
+    vec4 grid_z;
+    vec4 grid_value;       // x density of the greatest value
 };
 
 struct VolumetricsData {

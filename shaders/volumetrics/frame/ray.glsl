@@ -40,4 +40,9 @@ Ray view_ray(vec2 uv) {
     return Ray(volumetrics.eye.xyz, direction, -view_direction.z, uv, direction);
 }
 
+// Metres across at a distance along a ray, of one of `columns` equal parts of the screen's width.
+float width_at(Ray ray, float t, float columns) {
+    return 2.0 * abs(volumetrics.inverse_projection[0][0]) * t * ray.forward_cosine / columns;
+}
+
 #endif

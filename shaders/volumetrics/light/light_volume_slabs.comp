@@ -26,9 +26,10 @@ uniform mat4 volume_to_world;  // from texture coordinates
 
 // Samples of a medium in a slab, unless its density is constant.
 const int SAMPLES = 2;
+const int MOST_GRID_SAMPLES = 4;
 
-// sigma_t int density dt over the segment, in closed form where density is constant.
-vec3 slab_optical_depth(vec3 from, vec3 direction, float path_length) {
+// sigma_t int density dt over the segment, `across` metres wide, in closed form where density is constant.
+vec3 slab_optical_depth(vec3 from, vec3 direction, float path_length, float across) {
     vec3 depth = vec3(0.0);
     vec3 middle = from + direction * (0.5 * path_length);
     for (uint i = 0u; i < media_count; ++i) {
@@ -39,7 +40,9 @@ vec3 slab_optical_depth(vec3 from, vec3 direction, float path_length) {
         vec2 inside = inside_shape(medium, from, direction, 0.0, path_length);
         if (inside.x >= inside.y) continue;
         float density = 1.0;
-        if (!is_homogeneous(medium)) {
+        if (has_grid(medium)) {
+            density = mean_grid(medium, from, direction, inside.x, inside.y, across, MOST_GRID_SAMPLES);
+        } else if (!is_homogeneous(medium)) {
             count_work(WORK_MEDIUM_SAMPLES, uint(SAMPLES));
             density = 0.0;
             for (int k = 0; k < SAMPLES; ++k) {
@@ -61,6 +64,8 @@ void main() {
         // One texel of border all round.
         vec3 direction = lamp_tile_direction((vec2(texel.xy) - 0.5) / vec2(size.xy - 2), lamp_window);
         float path_length = (lamp_span.y - lamp_span.x) / float(size.z - 1);
+        float across = 2.0 * (lamp_span.x + path_length * (float(texel.z) - 0.5)) / float(size.x - 2) *
+                       (lamp_window.w > 0.0 ? 1.0 / lamp_window.w : 1.5);
         vec3 from = lamp_position + direction * (lamp_span.x + path_length * float(texel.z - 1));
 #else
         vec3 uvw = (vec3(texel) + vec3(0.5, 0.5, -0.5)) / vec3(size);
@@ -68,8 +73,9 @@ void main() {
         vec3 along = volume_to_world[2].xyz / float(size.z);
         float path_length = length(along);
         vec3 direction = along / path_length;
+        float across = length(volume_to_world[0].xyz) / float(size.x);
 #endif
-        depth = slab_optical_depth(from, direction, path_length);
+        depth = slab_optical_depth(from, direction, path_length, across);
     }
     imageStore(volume, origin + texel, round_to_half(vec4(depth, 1.0)));
     flush_work();

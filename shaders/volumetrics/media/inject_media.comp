@@ -22,7 +22,7 @@ layout(rgba16f, binding = 1) writeonly uniform image3D froxel_extinction;
 layout(rgba16f, binding = 2) writeonly uniform image3D froxel_emission;
 #endif
 
-const int MOST_SAMPLES = 8;  // of a medium's noise in a froxel
+const int MOST_SAMPLES = 8;  // of a medium's noise or grid in a froxel
 
 // Behind what a column and those around it see nobody looks.
 bool is_seen(ivec3 froxel, ivec3 size) {
@@ -65,7 +65,9 @@ void main() {
             count_work(WORK_MEDIUM_SAMPLES, 1u);
             float density = (part.y - part.x) / (end - begin) *
                             mean_density(medium, ray.origin, ray.direction, part.x, part.y) *
-                            mean_noise(medium, ray.origin, ray.direction, part.x, part.y, MOST_SAMPLES);
+                            mean_noise(medium, ray.origin, ray.direction, part.x, part.y, MOST_SAMPLES) *
+                            mean_grid(medium, ray.origin, ray.direction, part.x, part.y,
+                                      width_at(ray, 0.5 * (part.x + part.y), float(size.x)), MOST_SAMPLES);
             vec3 sigma_s = medium.sigma_s_g.rgb * density;
             scattering += vec4(sigma_s, medium.sigma_s_g.w * dot(sigma_s, vec3(1.0 / 3.0)));
             extinction += sigma_s + medium.sigma_a_shape.rgb * density;

@@ -1,9 +1,17 @@
 // The local media themselves: at any point, and in the mean over any part of a line.
+//
+// GRIDS: some are density grids.
 #ifndef VOLUMETRICS_LOCAL_MEDIA_GLSL
 #define VOLUMETRICS_LOCAL_MEDIA_GLSL
 
+#ifndef GRIDS
+#define GRIDS 0
+#endif
 #include "shaders/volumetrics/frame/data.glsl"
 #include "shaders/volumetrics/media/shape.glsl"
+#if GRIDS
+#include "shaders/volumetrics/media/grid.glsl"
+#endif
 
 layout(std430, binding = BINDING_LOCAL_MEDIA) readonly buffer LocalMediaBuffer { LocalMedium local_media[]; };
 
@@ -12,6 +20,12 @@ vec3 direction_to_shape(LocalMedium medium, vec3 direction) { return mat3(medium
 
 bool has_noise(LocalMedium medium) { return medium.emission_noise.w > 0.0; }
 bool has_height(LocalMedium medium) { return medium.noise_height.w > 0.0; }
+
+#if GRIDS
+bool has_grid(LocalMedium medium) { return shape_of(medium) == SHAPE_GRID; }
+#else
+bool has_grid(LocalMedium medium) { return false; }
+#endif
 
 float noise_density(LocalMedium medium, vec3 p) {
     return media_noise(p, medium.noise_height.x, medium.emission_noise.w, medium.noise_seed.x);
@@ -22,11 +36,16 @@ float local_density(LocalMedium medium, vec3 point) {
     float density = shape_density(medium, p);
     if (density <= 0.0) return 0.0;
     if (has_noise(medium)) density *= noise_density(medium, p);
+#if GRIDS
+    if (has_grid(medium)) density *= grid_density(medium, p);
+#endif
     return density * media_height(point.y, medium.noise_height.z, medium.noise_height.w);
 }
 
 // Inside the shape the density is 1 everywhere.
-bool is_homogeneous(LocalMedium medium) { return shape_is_even(medium) && !has_noise(medium) && !has_height(medium); }
+bool is_homogeneous(LocalMedium medium) {
+    return shape_is_even(medium) && !has_noise(medium) && !has_height(medium) && !has_grid(medium);
+}
 
 // The part of [begin, end] of a line in the shape, metres along the unit direction; none: x >= y.
 vec2 inside_shape(LocalMedium medium, vec3 origin, vec3 direction, float begin, float end) {
@@ -65,7 +84,7 @@ float mean_rim(LocalMedium medium, vec3 o, vec3 d, float begin, float end, float
     return sum.y / max(sum.x, 1.0e-30);
 }
 
-// Mean density over [begin, end] of a line, which lies in the shape; of the noise apart. Exact for hard rims, and for heights.
+// Mean density over [begin, end] of a line, which lies in the shape; noise and grid apart. Exact for hard rims, and for heights.
 float mean_density(LocalMedium medium, vec3 origin, vec3 direction, float begin, float end) {
     float density = 1.0;
     float decay = 0.0;
@@ -89,6 +108,15 @@ float mean_noise(LocalMedium medium, vec3 origin, vec3 direction, float begin, f
     for (int i = 0; i < count; ++i)
         sum += noise_density(medium, o + d * mix(begin, end, (float(i) + 0.5) / float(count)));
     return sum / float(count);
+}
+
+// Mean of the grid alone, over `width` metres across: see grid.glsl.
+float mean_grid(LocalMedium medium, vec3 origin, vec3 direction, float begin, float end, float width, int most) {
+#if GRIDS
+    if (has_grid(medium))
+        return grid_mean(medium, to_shape(medium, origin), direction_to_shape(medium, direction), begin, end, width, most);
+#endif
+    return 1.0;
 }
 
 vec3 local_sigma_t(LocalMedium medium) { return medium.sigma_s_g.rgb + medium.sigma_a_shape.rgb; }

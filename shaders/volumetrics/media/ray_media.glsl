@@ -15,6 +15,9 @@ layout(std430, binding = BINDING_SCREEN_MEDIA) readonly buffer ScreenMediaBuffer
 // See noise_volume.comp.
 layout(binding = 1) uniform sampler3D noise_volume;
 
+const int MOST_GRID_SAMPLES = 8;            // of a part of a ray
+const int MOST_GRID_SAMPLES_OF_CHORD = 64;  // of all of it
+
 // Chords that are kept. A ray may meet more media: those are found again wherever they are asked for, and cut nothing.
 const int MAX_CHORDS = 16;
 int chord_count = 0;
@@ -85,6 +88,8 @@ void add_medium(LocalMedium medium, Ray ray, float begin, float end, vec2 part, 
     count_work(WORK_MEDIUM_SAMPLES, 1u);
     float density = mean_density(medium, ray.origin, ray.direction, part.x, part.y);
     if (has_noise(medium)) density *= noise;
+    density *= mean_grid(medium, ray.origin, ray.direction, part.x, part.y,
+                         width_at(ray, 0.5 * (part.x + part.y), volumetrics.target.x), MOST_GRID_SAMPLES);
     float share = density * ((part.y - part.x) / (end - begin));
     vec3 sigma_s = medium.sigma_s_g.rgb * share;
     add_particles(sigma_s, medium.sigma_s_g.w * mean_channel(sigma_s), m);
@@ -121,6 +126,8 @@ vec3 local_optical_depth(Ray ray, float begin, float end) {
             count_work(WORK_MEDIUM_SAMPLES, 1u);
             float density = mean_density(medium, ray.origin, ray.direction, part.x, part.y);
             if (has_noise(medium)) density *= noise_over(ray, part.x, part.y);
+            density *= mean_grid(medium, ray.origin, ray.direction, part.x, part.y,
+                                 width_at(ray, part.x, volumetrics.target.x), MOST_GRID_SAMPLES_OF_CHORD);
             depth += local_sigma_t(medium) * (density * (part.y - part.x));
         }
     }

@@ -11,6 +11,8 @@
 #include "shaders/volumetrics/media/shape_ellipsoid.glsl"
 
 int shape_of(LocalMedium medium) { return int(medium.sigma_a_shape.w); }
+// A grid fills its box: what of it is empty is a matter of its density.
+bool is_box(LocalMedium medium) { return shape_of(medium) != SHAPE_ELLIPSOID; }
 
 // Of a sphere round the centre that holds it, m.
 float shape_radius(LocalMedium medium) { return length(vec3(medium.extent_softness)); }
@@ -18,13 +20,13 @@ float shape_radius(LocalMedium medium) { return length(vec3(medium.extent_softne
 // Distance from the rim to a point inside, m; negative outside.
 float shape_depth(LocalMedium medium, vec3 p) {
     vec3 extent = vec3(medium.extent_softness);
-    if (shape_of(medium) == SHAPE_BOX) {
+    if (is_box(medium)) {
         return box_depth(p, extent);
     }
     return ellipsoid_depth(p, extent);
 }
 
-// 0..1, apart from noise and height.
+// 0..1, apart from noise, height and grid.
 float shape_density(LocalMedium medium, vec3 p) { return soft_rim(shape_depth(medium, p), medium.extent_softness.w); }
 
 // That is 1 everywhere inside.
@@ -36,7 +38,7 @@ vec2 shape_chord(LocalMedium medium, vec3 o, vec3 d) {
     if (any(lessThanEqual(extent, vec3(0.0f)))) {
         return vec2(0.0f);
     }
-    if (shape_of(medium) == SHAPE_BOX) {
+    if (is_box(medium)) {
         return box_chord(o, d, extent);
     }
     return ellipsoid_chord(o, d, extent);
@@ -46,7 +48,7 @@ vec2 shape_chord(LocalMedium medium, vec3 o, vec3 d) {
 // and stay inside.
 vec3 shape_place(LocalMedium medium, vec3 u, float drift) {
     vec3 extent = vec3(medium.extent_softness);
-    if (shape_of(medium) == SHAPE_BOX) {
+    if (is_box(medium)) {
         return box_place(u, drift, extent);
     }
     return ellipsoid_place(u, drift, extent);

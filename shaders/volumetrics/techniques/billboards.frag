@@ -42,6 +42,8 @@ vec2 sheet_part(Ray ray, vec2 part) {
     return part;
 }
 
+const int MOST_GRID_SAMPLES = 16;
+
 Medium sheet_medium(Ray ray, vec2 part, vec3 point) {
     count_work(WORK_MEDIUM_SAMPLES, 1u);
     float path_length = part.y - part.x;
@@ -49,6 +51,8 @@ Medium sheet_medium(Ray ray, vec2 part, vec3 point) {
         LocalMedium local = local_media[int(slab.z)];
         float density = mean_density(local, ray.origin, ray.direction, part.x, part.y);
         if (has_noise(local)) density *= noise_density(local, to_shape(local, point));
+        density *= mean_grid(local, ray.origin, ray.direction, part.x, part.y,
+                             width_at(ray, part.x, volumetrics.target.x), MOST_GRID_SAMPLES);
         Medium m;
         m.sigma_s = local.sigma_s_g.rgb * density;
         m.anisotropy = local.sigma_s_g.w;

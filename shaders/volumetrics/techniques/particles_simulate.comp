@@ -73,13 +73,15 @@ bool in_view(vec3 center, vec4 clip) {
 // Of all local media over path_length metres from the eye.
 vec3 local_optical_depth(vec3 direction, float path_length) {
     const int MOST_SAMPLES = 4;  // of the noise of each
+    const int MOST_GRID_SAMPLES = 32;
     vec3 depth = vec3(0.0);
     for (uint i = 0u; i < volumetrics.local_media_count; ++i) {
         LocalMedium local = local_media[i];
         vec2 inside = inside_shape(local, volumetrics.eye.xyz, direction, 0.0, path_length);
         if (inside.x >= inside.y) continue;
         float density = mean_density(local, volumetrics.eye.xyz, direction, inside.x, inside.y) *
-                        mean_noise(local, volumetrics.eye.xyz, direction, inside.x, inside.y, MOST_SAMPLES);
+                        mean_noise(local, volumetrics.eye.xyz, direction, inside.x, inside.y, MOST_SAMPLES) *
+                        mean_grid(local, volumetrics.eye.xyz, direction, inside.x, inside.y, radius, MOST_GRID_SAMPLES);
         depth += local_sigma_t(local) * (density * (inside.y - inside.x));
     }
     return depth;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/graph/pass_list.h"
+#include "volumetrics/density_grid.h"
 
 namespace tyndall::volumetrics {
 
@@ -23,7 +24,7 @@ struct GlobalMedium {
 };
 
 /// Of a bounded medium.
-enum class Shape { ellipsoid, box };
+enum class Shape { ellipsoid, box, grid };
 
 /// A medium bounded by a shape.
 struct LocalMedium {
@@ -39,6 +40,10 @@ struct LocalMedium {
     int noise_seed = 0;
     bool height = false;
     float base = 0, falloff = 1;
+    // Shape grid: set_grid() fills these, centre, extent and rotation. It has no softness, noise or height.
+    std::shared_ptr<const DensityGrid> grid = nullptr;
+    glm::dmat4 world_to_voxel{1};
+    bool nearest = false;
 };
 
 /// A lamp in view, by its index for light_at() of shaders/interface/lights.glsl. Suns beside Inputs::sun_direction

@@ -37,6 +37,7 @@ struct Running {
         if (local_media && resources.local_media) {
             resources.local_media.bind(GL_SHADER_STORAGE_BUFFER, BINDING_LOCAL_MEDIA);
             resources.screen_media.bind(GL_SHADER_STORAGE_BUFFER, BINDING_SCREEN_MEDIA);
+            resources.grids.bind();
         }
         resources.noise.bind();
         resources.uniforms.bind(GL_UNIFORM_BUFFER, BINDING_VOLUMETRICS);
@@ -60,6 +61,7 @@ struct Running {
 };
 
 std::optional<int> standard_axis(const Frame& frame, const std::string& define) {
+    if (define == "GRIDS") return frame.media.local_grids;
     if (define == "HEIGHT_MEDIA") return height_media_axis(frame.media);
     if (define == "LOCAL_MEDIA") return !frame.media.local.empty();
     if (define == "HAS_SUN") return frame.inputs.has_sun;
@@ -91,6 +93,8 @@ const gl::Program& Frame::program(const ProgramDesc& desc, const Permutation& ow
         if (!own.contains(axis.define))
             if (const std::optional<int> value = standard_axis(*this, axis.define))
                 permutation[axis.define] = *value;
+    if (permutation.contains("GRIDS") && permutation["GRIDS"] != 0 && permutation.contains("HEIGHT_MEDIA"))
+        permutation["HEIGHT_MEDIA"] = MAX_HEIGHT_MEDIA;
     return shaders.get(desc, permutation);
 }
 

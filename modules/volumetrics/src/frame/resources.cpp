@@ -19,19 +19,21 @@ void Resources::upload(const Settings& settings, FrameMedia& media) {
         screen_media.assign(std::span<const std::uint32_t>(volumetrics::screen_media(media.local_bounds)),
                             "volumetrics media of the screen");
     }
+    grids.prepare(media.grids);
     noise.prepare(settings);
 }
 
 void Resources::release() {
     for (gl::Buffer* buffer : {&uniforms, &local_media, &screen_media, &media_tiles}) *buffer = {};
+    grids.release();
     light_volumes.release();
     noise.release();
     temporal.release();
 }
 
 std::size_t Resources::bytes() const {
-    return uniforms.size() + local_media.size() + screen_media.size() + media_tiles.size() + light_volumes.bytes() +
-           noise.bytes() + temporal.bytes();
+    return uniforms.size() + local_media.size() + screen_media.size() + media_tiles.size() + grids.bytes() +
+           light_volumes.bytes() + noise.bytes() + temporal.bytes();
 }
 
 }  // namespace tyndall::volumetrics

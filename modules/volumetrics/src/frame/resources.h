@@ -6,6 +6,7 @@
 #include "engine/gl/sampler.h"
 #include "light/light_volume.h"
 #include "media/froxel_media.h"
+#include "media/grid_atlas.h"
 #include "media/media.h"
 #include "reconstruction/noise.h"
 #include "reconstruction/temporal.h"
@@ -16,6 +17,7 @@ namespace tyndall::volumetrics {
 struct Resources {
     gl::Sampler nearest, linear;
     gl::Buffer uniforms, local_media, screen_media, media_tiles;
+    GridAtlas grids;
     LightVolumes light_volumes;
     NoiseSource noise;
     TemporalHistory temporal;

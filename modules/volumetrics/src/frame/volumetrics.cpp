@@ -75,7 +75,8 @@ void Volumetrics::prepare(const Inputs& inputs, const Settings& settings) {
 LightTransmittance Volumetrics::add_light_passes(PassList& passes, const Inputs& inputs, const Settings& settings) {
     LightVolumes& volumes = impl_->resources.light_volumes;
     impl_->light_passes_added = true;
-    if (!impl_->media.attenuating.empty()) volumes.add_passes(passes, impl_->shaders, inputs);
+    if (!impl_->media.attenuating.empty())
+        volumes.add_passes(passes, impl_->shaders, inputs, impl_->resources.grids);
     const bool on = settings.light.transmittance && technique(settings.technique).add;
     return {.any = on && (impl_->media.has_global || volumes.any()),
             .light_volumes = volumes.any(),

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstring>
 
 #include "shaders/shared/bindings.h"
@@ -12,7 +13,7 @@ namespace {
 const ProgramDesc slabs_program{
     .name = "volumetrics/light_volume_slabs",
     .stages = {{GL_COMPUTE_SHADER, "shaders/volumetrics/light/light_volume_slabs.comp"}},
-    .axes = {{"LAMP", {0, 1}}, {"CHROMATIC", {0, 1}}, {"COUNT_WORK", {0, 1}}},
+    .axes = {{"LAMP", {0, 1}}, {"GRIDS", {0, 1}}, {"CHROMATIC", {0, 1}}, {"COUNT_WORK", {0, 1}}},
     .valid = {}};
 const ProgramDesc sum_program{.name = "volumetrics/light_volume_sum",
                               .stages = {{GL_COMPUTE_SHADER, "shaders/volumetrics/light/light_volume_sum.comp"}},
@@ -53,15 +54,18 @@ gl::Texture light_volume_texture(glm::ivec3 size, bool chromatic, const char* la
     return texture;
 }
 
-void fill_light_volume(ShaderLibrary& shaders, bool count_work, const gl::Texture& volume, const gl::Buffer& media,
-                       std::size_t media_count, std::span<const LightRays> rays) {
+void fill_light_volume(ShaderLibrary& shaders, bool count_work, const gl::Texture& volume,
+                       const DimmingMedia& media, std::span<const LightRays> rays) {
     const bool chromatic = volume.desc().format == GL_RGBA16F;
     glBindImageTexture(0, volume.id(), 0, GL_TRUE, 0, GL_READ_WRITE, volume.desc().format);
-    media.bind(GL_SHADER_STORAGE_BUFFER, BINDING_LOCAL_MEDIA);
+    media.buffer.bind(GL_SHADER_STORAGE_BUFFER, BINDING_LOCAL_MEDIA);
+    media.grids.bind();
     for (const LightRays& r : rays) {
-        const gl::Program& slabs = shaders.get(
-            slabs_program, {{"LAMP", r.of_lamp()}, {"CHROMATIC", chromatic}, {"COUNT_WORK", count_work}});
-        slabs.set("media_count", static_cast<unsigned>(media_count));
+        const gl::Program& slabs = shaders.get(slabs_program, {{"LAMP", r.of_lamp()},
+                                                               {"GRIDS", media.has_grids},
+                                                               {"CHROMATIC", chromatic},
+                                                               {"COUNT_WORK", count_work}});
+        slabs.set("media_count", static_cast<unsigned>(media.count));
         if (r.of_lamp()) {
             slabs.set("lamp_position", r.lamp);
             slabs.set("lamp_window", r.window);
@@ -96,7 +100,8 @@ void LightVolumes::prepare(const Inputs& inputs, const Settings& settings, Frame
     uploaded_ = now;
 }
 
-void LightVolumes::add_passes(PassList& passes, ShaderLibrary& shaders, const Inputs& inputs) {
+void LightVolumes::add_passes(PassList& passes, ShaderLibrary& shaders, const Inputs& inputs,
+                              const GridAtlas& grids) {
     const auto add = [&](const char* name, auto& volume, const char* without) {
         if (!volume.texture()) {
             passes.skip(name, without);
@@ -109,8 +114,10 @@ void LightVolumes::add_passes(PassList& passes, ShaderLibrary& shaders, const In
         }
         passes.add(
             name, [&](PassBuilder& builder) { ref = builder.storage_write(ref); },
-            [this, &volume, &shaders, count_work = inputs.count_work](const PassContext&) {
-                volume.fill(shaders, count_work, media_, uploaded_.size());
+            [this, &volume, &shaders, &grids, count_work = inputs.count_work](const PassContext&) {
+                const bool has_grids = std::ranges::any_of(
+                    uploaded_, [](const shared::LocalMedium& m) { return m.sigma_a_shape.w == SHAPE_GRID; });
+                volume.fill(shaders, count_work, {media_, uploaded_.size(), has_grids, grids});
             });
         return ref;
     };

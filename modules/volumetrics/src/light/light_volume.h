@@ -26,9 +26,17 @@ struct LightRays {
     [[nodiscard]] bool of_lamp() const { return end > 0; }
 };
 
+/// What dims the light.
+struct DimmingMedia {
+    const gl::Buffer& buffer;
+    std::size_t count;
+    bool has_grids;
+    const GridAtlas& grids;
+};
+
 /// Fills parts of a volume by shaders/volumetrics/light/light_volume_slabs.comp and light_volume_sum.comp.
-void fill_light_volume(ShaderLibrary& shaders, bool count_work, const gl::Texture& volume, const gl::Buffer& media,
-                       std::size_t media_count, std::span<const LightRays> rays);
+void fill_light_volume(ShaderLibrary& shaders, bool count_work, const gl::Texture& volume,
+                       const DimmingMedia& media, std::span<const LightRays> rays);
 
 /// The volume of the sun: a box along its rays round all local media that dim it. It is kept until those or the sun
 /// change.
@@ -38,7 +46,7 @@ class SunVolume {
     void release() { *this = {}; }
     [[nodiscard]] const gl::Texture& texture() const { return texture_; }
     [[nodiscard]] bool stale() const { return stale_; }
-    void fill(ShaderLibrary& shaders, bool count_work, const gl::Buffer& media, std::size_t media_count);
+    void fill(ShaderLibrary& shaders, bool count_work, const DimmingMedia& media);
 
   private:
     gl::Texture texture_;
@@ -61,7 +69,7 @@ class LampVolumes {
     [[nodiscard]] const gl::Buffer& table() const { return table_; }  ///< see light_transmittance.glsl
     [[nodiscard]] bool stale() const;
     [[nodiscard]] std::size_t left_out() const { return left_out_; }  ///< lamps that the limit leaves without
-    void fill(ShaderLibrary& shaders, bool count_work, const gl::Buffer& media, std::size_t media_count);
+    void fill(ShaderLibrary& shaders, bool count_work, const DimmingMedia& media);
 
   private:
     struct Slot {
@@ -86,7 +94,7 @@ class LightVolumes {
     /// Before the uniforms are uploaded: writes the volumes' places into media.data.
     void prepare(const Inputs& inputs, const Settings& settings, FrameMedia& media);
     /// Adds the passes for what changed; says why for the others.
-    void add_passes(PassList& passes, ShaderLibrary& shaders, const Inputs& inputs);
+    void add_passes(PassList& passes, ShaderLibrary& shaders, const Inputs& inputs, const GridAtlas& grids);
     void release();
 
     /// Value of the axis LIGHT_VOLUMES: whether any light is dimmed by local media.

@@ -157,14 +157,14 @@ bool LampVolumes::stale() const {
     return std::ranges::any_of(slots_, [](const Slot& slot) { return slot.used && slot.stale; });
 }
 
-void LampVolumes::fill(ShaderLibrary& shaders, bool count_work, const gl::Buffer& media, std::size_t media_count) {
+void LampVolumes::fill(ShaderLibrary& shaders, bool count_work, const DimmingMedia& media) {
     std::vector<LightRays> rays;
     for (Slot& slot : slots_) {
         if (!slot.used || !slot.stale) continue;
         rays.push_back(slot.rays);
         slot.stale = false;
     }
-    fill_light_volume(shaders, count_work, texture_, media, media_count, rays);
+    fill_light_volume(shaders, count_work, texture_, media, rays);
 }
 
 }  // namespace tyndall::volumetrics

@@ -66,8 +66,8 @@ void SunVolume::prepare(const Inputs& inputs, const Settings& settings, FrameMed
     media.data.world_to_sun_volume = world_to_volume_;
 }
 
-void SunVolume::fill(ShaderLibrary& shaders, bool count_work, const gl::Buffer& media, std::size_t media_count) {
-    fill_light_volume(shaders, count_work, texture_, media, media_count, std::span(&rays_, 1));
+void SunVolume::fill(ShaderLibrary& shaders, bool count_work, const DimmingMedia& media) {
+    fill_light_volume(shaders, count_work, texture_, media, std::span(&rays_, 1));
     stale_ = false;
 }
 

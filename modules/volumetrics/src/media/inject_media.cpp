@@ -11,7 +11,7 @@ namespace {
 
 const ProgramDesc program{.name = "volumetrics/inject_media",
                           .stages = {{GL_COMPUTE_SHADER, "shaders/volumetrics/media/inject_media.comp"}},
-                          .axes = {{"EMISSION", {0, 1}}, {"COUNT_WORK", {0, 1}}},
+                          .axes = {{"EMISSION", {0, 1}}, {"GRIDS", {0, 1}}, {"COUNT_WORK", {0, 1}}},
                           .valid = {}};
 const ProgramRegistry::Registration registration(program);
 

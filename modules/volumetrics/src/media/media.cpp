@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
 
 #include "engine/core/error.h"
 #include "media/froxel_tiles.h"
@@ -57,7 +58,22 @@ shared::HeightMedium pack_height(const GlobalMedium& medium) {
             .sigma_s_rayleigh = {medium.rayleigh ? medium.sigma_s : glm::vec3(0), 0}};
 }
 
-shared::LocalMedium pack_local(const LocalMedium& medium) {
+/// Number `index` of the frame's grids.
+void pack_grid(const LocalMedium& medium, const Grids& grids, shared::LocalMedium& packed) {
+    const glm::dmat4 to_world =
+        glm::translate(glm::dmat4(1), glm::dvec3(medium.center)) * glm::mat4_cast(glm::dquat(medium.rotation));
+    const glm::dmat4 to_voxel =
+        glm::translate(glm::dmat4(1), -glm::dvec3(medium.grid->lower)) * medium.world_to_voxel * to_world;
+    const glm::mat4 rows = glm::transpose(glm::mat4(to_voxel));
+    packed.grid_x = rows[0];
+    packed.grid_y = rows[1];
+    packed.grid_z = rows[2];
+    packed.grid_value.x = medium.grid->greatest;
+    packed.noise_seed.y = static_cast<unsigned>(std::ranges::find(grids, medium.grid) - grids.begin());
+    packed.noise_seed.z = medium.nearest ? 1 : 0;
+}
+
+shared::LocalMedium pack_local(const LocalMedium& medium, const Grids& grids) {
     const bool noise = medium.noise_scale > 0 && medium.noise_amount > 0;
     shared::LocalMedium packed = pack_shape(medium);
     packed.sigma_s_g = {medium.sigma_s, medium.anisotropy};
@@ -65,6 +81,7 @@ shared::LocalMedium pack_local(const LocalMedium& medium) {
     packed.emission_noise = {medium.emission, noise ? medium.noise_amount : 0.0F};
     packed.noise_height = {medium.noise_scale, 0, medium.base, medium.height ? medium.falloff : 0.0F};
     packed.noise_seed.x = medium.noise_seed;
+    if (medium.grid) pack_grid(medium, grids, packed);
     return packed;
 }
 
@@ -86,11 +103,22 @@ void add_global(const Inputs& inputs, FrameMedia& media) {
 }
 
 void add_local(const LocalMedium& medium, const ViewBounds& bounds, FrameMedia& media) {
-    media.local.push_back(pack_local(medium));
+    media.local.push_back(pack_local(medium, media.grids));
+    media.local_grids |= medium.shape == Shape::grid;
     media.local_bounds.push_back(bounds);
     media.local_emission |= !is_zero(medium.emission);
     media.local_noise |= media.local.back().emission_noise.w > 0;
     media.chromatic |= is_coloured(medium.sigma_s + medium.sigma_a);
+}
+
+void gather_grids(const Inputs& inputs, FrameMedia& media) {
+    for (const LocalMedium& medium : inputs.local) {
+        if (medium.shape != Shape::grid) continue;
+        if (!medium.grid)
+            throw Error("volumetrics: a medium of shape grid without a grid; set_grid() gives it one");
+        if (!does_nothing(medium) && std::ranges::find(media.grids, medium.grid) == media.grids.end())
+            media.grids.push_back(medium.grid);
+    }
 }
 
 /// Those in view. For the technique reference all, also those that only attenuate light on its way to another: if
@@ -114,7 +142,7 @@ void add_local(const Inputs& inputs, bool unseen, FrameMedia& media) {
 void add_attenuating(const Inputs& inputs, FrameMedia& media) {
     for (const LocalMedium& medium : inputs.local) {
         if (is_zero(medium.sigma_s + medium.sigma_a) || is_empty(medium)) continue;
-        AttenuatingMedium added{medium, pack_local(medium)};
+        AttenuatingMedium added{medium, pack_local(medium, media.grids)};
         added.packed.sigma_s_g.w = 0;
         added.packed.emission_noise = {0, 0, 0, added.packed.emission_noise.w};
         media.attenuating.push_back(added);
@@ -172,6 +200,12 @@ unsigned phase_option(PhaseFunction phase) {
 
 }  // namespace
 
+bool is_grid_permutation(const Permutation& p) {
+    if (p.at("GRIDS") == 0) return true;
+    const auto height = p.find("HEIGHT_MEDIA"), local = p.find("LOCAL_MEDIA");
+    return (height == p.end() || height->second == MAX_HEIGHT_MEDIA) && (local == p.end() || local->second > 0);
+}
+
 bool is_sun(const Lamp& lamp, glm::vec3 eye) {
     return glm::distance(eye, lamp.position) > 0.5F * SUN_LAMP_DISTANCE;
 }
@@ -182,6 +216,7 @@ FrameMedia gather_media(const Inputs& inputs, const Settings& settings) {
     if (!desc.add) return media;
     add_global(inputs, media);
     if (desc.traits.local_media) {
+        gather_grids(inputs, media);
         add_local(inputs, desc.traits.unseen_local_media, media);
         set_froxels(inputs, settings, media);
         if (settings.light.transmittance && (inputs.has_sun || inputs.has_lamps)) add_attenuating(inputs, media);

@@ -3,6 +3,8 @@
 #include <limits>
 #include <vector>
 
+#include "engine/shader/shader_library.h"
+#include "media/grid_atlas.h"
 #include "shaders/shared/volumetrics.h"
 #include "volumetrics/inputs.h"
 #include "volumetrics/settings.h"
@@ -41,14 +43,19 @@ struct FrameMedia {
     bool has_global = false;
     bool local_emission = false;
     bool local_noise = false;
-    bool rayleigh = false;   ///< some medium scatters as air does
-    bool chromatic = false;  ///< some medium's extinction is coloured, or is taken so: always where `rayleigh`
+    bool local_grids = false;  ///< some of `local` are density grids
+    Grids grids;               ///< of all inputs: a turn of the camera changes none
+    bool rayleigh = false;     ///< some medium scatters as air does
+    bool chromatic = false;    ///< some medium's extinction is coloured, or is taken so: always where `rayleigh`
 
     [[nodiscard]] bool empty() const { return !has_global && local.empty(); }
 };
 
 /// Whether it stands for a further sun.
 [[nodiscard]] bool is_sun(const Lamp& lamp, glm::vec3 eye);
+
+/// Whether it can occur: with GRIDS, other axes of media have but their last value.
+[[nodiscard]] bool is_grid_permutation(const Permutation& permutation);
 
 /// Value of the axis HEIGHT_MEDIA: see shaders/volumetrics/media/global_media.glsl.
 [[nodiscard]] int height_media_axis(const FrameMedia& media);

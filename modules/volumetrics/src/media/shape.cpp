@@ -18,6 +18,7 @@ auto ask(Shape shape, Question question) {
         case Shape::ellipsoid:
             return question(EllipsoidShape());
         case Shape::box:
+        case Shape::grid:
             return question(BoxShape());
     }
     throw Error(fmt::format("volumetrics: shape {} of a local medium, one of Shape expected", int(shape)));

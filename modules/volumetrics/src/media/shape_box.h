@@ -5,9 +5,9 @@
 
 namespace tyndall::volumetrics {
 
-/// See shape.cpp and shaders/volumetrics/media/shape_box.glsl.
+/// A grid's too. See shape.cpp and shaders/volumetrics/media/shape_box.glsl.
 struct BoxShape {
-    static_assert(static_cast<int>(Shape::box) == SHAPE_BOX);
+    static_assert(static_cast<int>(Shape::box) == SHAPE_BOX && static_cast<int>(Shape::grid) == SHAPE_GRID);
 
     template <class T>
     static T half_extent_along(glm::vec<3, T> half_size, glm::vec<3, T> direction) {

@@ -21,6 +21,7 @@ const ProgramDesc lines_program{.name = "volumetrics/epipolar_lines",
 const ProgramRegistry::Registration lines_registration(lines_program);
 
 bool is_valid(const Permutation& p) {
+    if (p.at("GRIDS") != 0 && p.at("LOCAL_MEDIA") == 1) return false;
     return p.at("HEIGHT_MEDIA") == MAX_HEIGHT_MEDIA || p.at("LOCAL_MEDIA") == 1;
 }
 
@@ -30,6 +31,7 @@ const ProgramDesc program{.name = "volumetrics/epipolar",
                           .axes = {{"EPIPOLAR", {1}},
                                    {"HEIGHT_MEDIA", {0, MAX_HEIGHT_MEDIA}},
                                    {"LOCAL_MEDIA", {1, 2}},  // 1: none is in view
+                                   {"GRIDS", {0, 1}},
                                    {"HAS_SUN", {0, 1}},
                                    {"LAMPS", {0, 2}},
                                    {"CHROMATIC", {0, 1}},

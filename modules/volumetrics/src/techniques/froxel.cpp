@@ -10,12 +10,15 @@
 namespace tyndall::volumetrics {
 namespace {
 
-const ProgramDesc program{
-    .name = "volumetrics/froxel_apply",
-    .stages = {{GL_VERTEX_SHADER, "shaders/volumetrics/techniques/view_ray.vert"},
-               {GL_FRAGMENT_SHADER, "shaders/volumetrics/techniques/froxel_apply.frag"}},
-    .axes = {{"LOCAL_MEDIA", {0, 1}}, {"HAS_SUN", {0, 1}}, {"CHROMATIC", {0, 1}}, {"COUNT_WORK", {0, 1}}},
-    .valid = {}};
+const ProgramDesc program{.name = "volumetrics/froxel_apply",
+                          .stages = {{GL_VERTEX_SHADER, "shaders/volumetrics/techniques/view_ray.vert"},
+                                     {GL_FRAGMENT_SHADER, "shaders/volumetrics/techniques/froxel_apply.frag"}},
+                          .axes = {{"LOCAL_MEDIA", {0, 1}},
+                                   {"GRIDS", {0, 1}},
+                                   {"HAS_SUN", {0, 1}},
+                                   {"CHROMATIC", {0, 1}},
+                                   {"COUNT_WORK", {0, 1}}},
+                          .valid = is_grid_permutation};
 const ProgramRegistry::Registration registration(program);
 
 Estimate add(Frame& frame) {

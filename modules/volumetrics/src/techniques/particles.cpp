@@ -24,6 +24,7 @@ const ProgramDesc simulate_program{
     .axes = {has_sun,
              {"LAMPS", {0, 2}},  // 2: over a segment, as LampIntegration::segment
              {"LIGHT_VOLUMES", {0, 1}},
+             {"GRIDS", {0, 1}},
              count_work},
     .valid = is_light_volume_permutation};
 const ProgramDesc draw_program{.name = "volumetrics/particles",

@@ -10,6 +10,7 @@ namespace {
 
 bool is_valid(const Permutation& p) {
     const int local = p.at("LOCAL_MEDIA");
+    if (!is_grid_permutation(p) || (p.at("GRIDS") != 0 && local != 2)) return false;
     const bool lit = p.at("HAS_SUN") + p.at("LAMPS") > 0;
     if (local == 1 && !lit) return false;
     if (local == 0 && lit && p.at("HEIGHT_MEDIA") > 1) return false;  // see local_media_axis
@@ -23,6 +24,7 @@ const ProgramDesc program{.name = "volumetrics/march",
                                      {GL_FRAGMENT_SHADER, "shaders/volumetrics/techniques/ray_march.frag"}},
                           .axes = {{"HEIGHT_MEDIA", {0, 1, MAX_HEIGHT_MEDIA}},
                                    {"LOCAL_MEDIA", {0, 1, 2}},  // 1: they only dim light, 2: in view
+                                   {"GRIDS", {0, 1}},
                                    {"HAS_SUN", {0, 1}},
                                    {"LAMPS", {0, 1, 2}},  // 1 + LampIntegration
                                    {"CHROMATIC", {0, 1}},

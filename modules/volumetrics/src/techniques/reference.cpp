@@ -8,17 +8,18 @@
 namespace tyndall::volumetrics {
 namespace {
 
-const PermutationAxis height_media{"HEIGHT_MEDIA", {0, 1, MAX_HEIGHT_MEDIA}};
+const PermutationAxis height_media{"HEIGHT_MEDIA", {0, 1, MAX_HEIGHT_MEDIA}}, local_media{"LOCAL_MEDIA", {0, 1}},
+    grids{"GRIDS", {0, 1}};
 const ProgramDesc media_program{
     .name = "volumetrics/reference_media",
     .stages = {{GL_COMPUTE_SHADER, "shaders/volumetrics/techniques/reference_media.comp"}},
-    .axes = {height_media, {"LOCAL_MEDIA", {0, 1}}, {"HAS_SUN", {0, 1}}, {"COUNT_WORK", {0, 1}}},
-    .valid = {}};
+    .axes = {height_media, local_media, grids, {"HAS_SUN", {0, 1}}, {"COUNT_WORK", {0, 1}}},
+    .valid = is_grid_permutation};
 const ProgramDesc lamp_program{
     .name = "volumetrics/reference_lamps",
     .stages = {{GL_COMPUTE_SHADER, "shaders/volumetrics/techniques/reference_lamps.comp"}},
-    .axes = {height_media, {"LOCAL_MEDIA", {0, 1}}, {"COUNT_WORK", {0, 1}}},
-    .valid = {}};
+    .axes = {height_media, local_media, grids, {"COUNT_WORK", {0, 1}}},
+    .valid = is_grid_permutation};
 const ProgramRegistry::Registration media_registration(media_program), lamp_registration(lamp_program);
 
 /// MAX_STEP_COUNT of reference_lamps.comp.

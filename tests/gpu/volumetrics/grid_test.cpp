@@ -1,0 +1,172 @@
+// Density grids as local media, against sums over their voxels that know nothing of bricks, levels and textures.
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <map>
+#include <random>
+
+#include "tests/gpu/support/gl_test.h"
+#include "tests/gpu/support/volumetrics_host.h"
+#include "volumetrics/technique.h"
+
+namespace tyndall::test {
+namespace {
+
+/// Voxels by their coordinates.
+class Voxels {
+  public:
+    void set(glm::ivec3 v, float value) { values_[{v.x, v.y, v.z}] = value; }
+    [[nodiscard]] double at(glm::ivec3 v) const {
+        const auto found = values_.find({v.x, v.y, v.z});
+        return found == values_.end() ? 0.0 : double(found->second);
+    }
+    [[nodiscard]] double at(glm::dvec3 p, bool nearest) const {
+        if (nearest) return at(glm::ivec3(glm::floor(p + 0.5)));
+        const glm::dvec3 low = glm::floor(p), part = p - low;
+        double sum = 0;
+        for (int i = 0; i < 8; ++i) {
+            const glm::ivec3 corner(i & 1, i >> 1 & 1, i >> 2);
+            const glm::dvec3 weight = glm::mix(1.0 - part, part, glm::dvec3(corner));
+            sum += weight.x * weight.y * weight.z * at(glm::ivec3(low) + corner);
+        }
+        return sum;
+    }
+    [[nodiscard]] std::shared_ptr<const volumetrics::DensityGrid> grid() const {
+        struct Storage {
+            std::vector<glm::ivec3> bricks;
+            std::vector<float> values;
+        };
+        auto storage = std::make_shared<Storage>();
+        std::map<std::tuple<int, int, int>, std::size_t> found;
+        for (const auto& [key, value] : values_) {
+            const glm::ivec3 v(std::get<0>(key), std::get<1>(key), std::get<2>(key)), brick = v >> 3 << 3;
+            const auto [at, added] = found.try_emplace({brick.x, brick.y, brick.z}, storage->bricks.size());
+            if (added) {
+                storage->bricks.push_back(brick);
+                storage->values.resize(storage->values.size() + 512);
+            }
+            const glm::ivec3 in = v - brick;
+            storage->values[at->second * 512 + std::size_t(in.x + 8 * (in.y + 8 * in.z))] = value;
+        }
+        return volumetrics::density_grid(storage->bricks, storage->values, storage);
+    }
+
+  private:
+    std::map<std::tuple<int, int, int>, float> values_;
+};
+
+glm::dmat4 placed(glm::dvec3 center, glm::dvec3 scale, double angle) {
+    glm::dmat4 m = glm::mat4_cast(glm::angleAxis(angle, glm::normalize(glm::dvec3(1, 2, -0.5))));
+    for (int i = 0; i < 3; ++i) m[i] *= scale[i];
+    m[3] = glm::dvec4(center, 1);
+    return m;
+}
+
+class VolumetricsGrid : public GlTest, public testing::WithParamInterface<std::string> {
+  protected:
+    VolumetricsGrid() {
+        host.size = {24, 18};
+        host.vertical_fov = 0.6F;
+        host.view_depth = [](int, int) { return sky; };
+    }
+    StubHost host;
+
+    [[nodiscard]] static Settings settings() {
+        Settings settings = plain_settings(32);
+        settings.technique = GetParam();
+        settings.reference.steps = 256;
+        settings.froxels.x = settings.froxels.y = 48;
+        settings.billboards.fade = 0;
+        return settings;
+    }
+    /// Of a pixel's ray, in the mean over the voxels it passes, by a sum as fine as asked.
+    [[nodiscard]] double depth(const Voxels& voxels, const LocalMedium& medium, int x, int y, int parts = 4000) const {
+        const glm::dvec3 d = glm::normalize(glm::dvec3(host.ray(x, y)));
+        const double end = 40, step = end / parts;
+        double sum = 0;
+        for (int i = 0; i < parts; ++i) {
+            const glm::dvec3 p = glm::dvec3(host.eye) + d * (step * (i + 0.5));
+            sum += voxels.at(glm::dvec3(medium.world_to_voxel * glm::dvec4(p, 1)), medium.nearest);
+        }
+        return double(medium.sigma_a.x + medium.sigma_s.x) * sum * step;
+    }
+    struct Error {
+        double worst = 0, mean = 0;
+    };
+    /// Of transmittance.
+    Error error(const Voxels& voxels, const LocalMedium& medium) {
+        host.local = {medium};
+        const Frame frame = host.render(settings());
+        Error error;
+        for (int y = 0; y < host.size.y; ++y)
+            for (int x = 0; x < host.size.x; ++x) {
+                const double expected = std::exp(-depth(voxels, medium, x, host.size.y - 1 - y));
+                const double off = double(frame.transmittance.at(x, y)[0]) - expected;
+                error.worst = std::max(error.worst, std::abs(off));
+                error.mean += off / (host.size.x * host.size.y);
+            }
+        return error;
+    }
+};
+
+INSTANTIATE_TEST_SUITE_P(Techniques, VolumetricsGrid,
+                         testing::Values("ray_march", "epipolar", "froxel", "billboards", "reference"),
+                         [](const auto& info) { return info.param; });
+
+TEST_P(VolumetricsGrid, VoxelsOfOneAreABox) {
+    Voxels voxels;
+    for (int z = -3; z < 17; ++z)
+        for (int y = 5; y < 17; ++y)
+            for (int x = -20; x < 4; ++x) voxels.set({x, y, z}, 1);
+    for (const double angle : {0.0, 0.8}) {
+        LocalMedium medium{.sigma_a = glm::vec3(0.4F)};
+        const glm::dmat4 at_origin = placed({}, glm::dvec3(0.2, 0.3, 0.25), angle);
+        const glm::dvec3 middle(at_origin * glm::dvec4(-8.5, 10.5, 6.5, 1));
+        set_grid(medium, voxels.grid(), placed(glm::dvec3(0, 0, -12) - middle, glm::dvec3(0.2, 0.3, 0.25), angle), true);
+        LocalMedium box{.shape = Shape::box, .sigma_a = glm::vec3(0.4F)};
+        box.center = {0, 0, -12};
+        box.half_extent = {2.4F, 1.8F, 2.5F};
+        box.rotation = medium.rotation;
+        EXPECT_NEAR(glm::distance(medium.center, box.center), 0, 1e-4);
+        EXPECT_NEAR(glm::distance(medium.half_extent, box.half_extent), 0, 1e-4);
+        host.local = {box};
+        const Frame expected = host.render(settings());
+        host.local = {medium};
+        const Frame given = host.render(settings());
+        for (int y = 0; y < host.size.y; ++y)
+            for (int x = 0; x < host.size.x; ++x)
+                EXPECT_NEAR(given.transmittance.at(x, y)[0], expected.transmittance.at(x, y)[0], 1e-3)
+                    << x << " " << y << ", turned by " << angle;
+    }
+}
+
+// Lumps of a few voxels with gaps of whole bricks between them, along and across bricks' borders; first with pixels
+// smaller than voxels, then with larger ones, which see the mean over what they cover.
+TEST_P(VolumetricsGrid, SparseVoxelsDimAsTheirSum) {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<float> unit(0, 1);
+    Voxels voxels;
+    for (int lump = 0; lump < 40; ++lump) {
+        const glm::ivec3 at(glm::vec3(unit(random), unit(random), unit(random)) * glm::vec3(90, 60, 70) - 20.0F);
+        for (int i = 0; i < 200; ++i)
+            voxels.set(at + glm::ivec3(glm::vec3(unit(random), unit(random), unit(random)) * 7.0F), unit(random));
+    }
+    for (const bool nearest : {false, true}) {
+        LocalMedium medium{.sigma_a = glm::vec3(2)};
+        set_grid(medium, voxels.grid(), placed({-2.3, -1, -14}, glm::dvec3(0.08, 0.1, 0.09), 0.3), nearest);
+        for (const float fov : {0.06F, 0.6F}) {
+            host.vertical_fov = fov;
+            const Error off = error(voxels, medium);
+            std::printf("%s %s: worst %.4f, mean %.5f\n", GetParam().c_str(), nearest ? "nearest" : "linear",
+                        off.worst, off.mean);
+            if (fov < 0.1F) {
+                EXPECT_LE(off.worst, nearest ? 0.03 : 0.01);
+            }
+            EXPECT_NEAR(off.mean, 0, 3e-3);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace tyndall::test
