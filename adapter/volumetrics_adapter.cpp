@@ -137,7 +137,7 @@ void VolumetricsAdapter::add_before_lighting(FrameContext& frame, const GBuffer&
     module_->prepare(inputs_, settings);
     const volumetrics::LightTransmittance dimmed = module_->add_light_passes(frame.passes, inputs_, settings);
     if (!dimmed.any) return;
-    for (const TextureRef volume : {dimmed.sun_volume, dimmed.lamp_volumes})
+    for (const TextureRef volume : {dimmed.sun_volume, dimmed.grid_sun_volume, dimmed.lamp_volumes})
         if (volume) lights.textures.push_back(volume);
     lights.defines["MEDIUM_TRANSMITTANCE"] = inputs_.has_sun || inputs_.has_lamps;
     lights.defines["LIGHT_VOLUMES"] = dimmed.light_volumes;

@@ -29,15 +29,16 @@
 // includes shaders/volumetrics/frame/apply.glsl leaves 6 and 7 to it, one of local media 4 and 5 to their grids.
 #define UNIT_GRID_PAGES 4  // and 5: grid.glsl
 #define UNIT_GRID_BRICKS 5
+#define UNIT_NOISE 6         // noise_offset.glsl
 #define UNIT_FOG_COLUMNS 6
 #define UNIT_FOG_RADIANCE 7
 #define UNIT_SUN_CASCADES 8       // 8 to 11: what lights are read from
 #define UNIT_SUN_STATIC 9
 #define UNIT_SHADOW_ATLAS 10
 #define UNIT_AMBIENT 11
-#define UNIT_SUN_VOLUME 12        // 12, 13: light_transmittance.glsl
+#define UNIT_SUN_VOLUME 12        // 12 to 14: light_transmittance.glsl
 #define UNIT_LAMP_VOLUMES 13
-#define UNIT_NOISE 14             // noise_offset.glsl
+#define UNIT_GRID_SUN 14          // light_transmittance.glsl
 #define UNIT_FOG_OPTICAL_DEPTH 15 // apply.glsl
 
 #endif

@@ -13,6 +13,7 @@
 // Density grids (grid.glsl): levels of detail, and words of a grid's header in the page table.
 #define GRID_LEVELS 12
 #define GRID_HEADER 32  // its number of levels, then of each level where its pages begin and its bricks along x | y << 10 | z << 20
+#define MAX_GRIDS 8     // that dim light
 #define GRID_SIDE 8     // voxels of a brick, without those of the next one that it repeats
 #define GRID_ROW_BITS 12  // of the page table's texture
 
@@ -65,6 +66,14 @@ struct LocalMedium {
     vec4 grid_value;       // x density of the greatest value
 };
 
+// What a density grid leaves of the sun's light: its part of a volume (light_transmittance.glsl).
+struct GridSun {
+    mat4 world_to_volume;  // to texture xyz
+    vec4 low;              // of the part, texture xyz: centres of the outermost texels
+    vec4 high;
+    vec4 sigma_t;          // rgb 1/m at density 1
+};
+
 struct VolumetricsData {
     mat4 inverse_projection;
     mat4 inverse_view;
@@ -100,12 +109,13 @@ struct VolumetricsData {
     uint has_global;            // 1: some medium fills space
     uint further_suns;          // the first of the lamps
     uint loop_rounds;           // of all loops of a shader, after which the driver ends them
-    uint unused;
+    uint grid_suns;             // of grid_sun
     mat4 froxel_begins;         // FROXEL_TABLE: view depth (m) where each of 16 equal shares of the slices begins
     mat4 froxel_lengths;        // and their lengths (m); entry i is [i / 4][i % 4]
     mat4 world_to_sun_volume;   // world to texture xyz of the sun volume, see light_transmittance.glsl
     vec4 lamp_volumes;          // x directions across and y distances of a lamp's volume, zw 1 / size of the atlas, texels
     HeightMedium height[MAX_HEIGHT_MEDIA];
+    GridSun grid_sun[MAX_GRIDS];
 };
 
 SHARED_END

@@ -42,6 +42,7 @@ void limit_resources(StressOptions& options) {
     for (int* side : {&v.froxels.x, &v.froxels.y, &v.froxels.z}) *side |= 1;  // see odd() in frame.cpp
     const auto at_most = [](int& value, int most) { value = std::min(value, most); };
     at_most(v.light_volumes.sun_size, 32);
+    at_most(v.light_volumes.grid_size, 32);
     at_most(v.light_volumes.lamp_size, 12);
     at_most(v.particles.count, 4096);
     at_most(v.particles.local_count, 4096);

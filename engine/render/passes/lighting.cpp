@@ -14,11 +14,12 @@ const ProgramDesc program{
      {"HAS_AMBIENT", {0, 1}},
      {"SHADOWS", {0, 1}},
      {"MEDIUM_TRANSMITTANCE", {0, 1}},
-     {"LIGHT_VOLUMES", {0, 1}},
+     {"LIGHT_VOLUMES", {0, 1, 2}},
      {"COUNT_WORK", {0, 1}}},
     [](const Permutation& p) {
         const bool lights = p.at("HAS_SUN") != 0 || p.at("HAS_LAMPS") != 0;
-        if (p.at("LIGHT_VOLUMES") > p.at("MEDIUM_TRANSMITTANCE")) return false;
+        if (p.at("LIGHT_VOLUMES") != 0 && p.at("MEDIUM_TRANSMITTANCE") == 0) return false;
+        if (p.at("LIGHT_VOLUMES") == 2 && p.at("HAS_SUN") == 0) return false;
         return lights || (p.at("SHADOWS") == 0 && p.at("MEDIUM_TRANSMITTANCE") == 0);
     }};
 const ProgramRegistry::Registration registration(program);

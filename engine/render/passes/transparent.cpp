@@ -11,12 +11,13 @@ namespace tyndall {
 namespace {
 
 const std::vector<PermutationAxis> axes{
-    {"HAS_SUN", {0, 1}},       {"HAS_LAMPS", {0, 1}}, {"SHADOWS", {0, 1}},   {"MEDIUM_TRANSMITTANCE", {0, 1}},
-    {"LIGHT_VOLUMES", {0, 1}}, {"FOG", {0, 1}},       {"COUNT_WORK", {0, 1}}};
+    {"HAS_SUN", {0, 1}},          {"HAS_LAMPS", {0, 1}}, {"SHADOWS", {0, 1}},   {"MEDIUM_TRANSMITTANCE", {0, 1}},
+    {"LIGHT_VOLUMES", {0, 1, 2}}, {"FOG", {0, 1}},       {"COUNT_WORK", {0, 1}}};
 
 bool is_permutation(const Permutation& p) {
     const int volumes = p.at("LIGHT_VOLUMES");
-    if (volumes > p.at("MEDIUM_TRANSMITTANCE")) return false;
+    if (volumes != 0 && p.at("MEDIUM_TRANSMITTANCE") == 0) return false;
+    if (volumes == 2 && p.at("HAS_SUN") == 0) return false;
     // Media that are not in view are local ones.
     if (p.at("MEDIUM_TRANSMITTANCE") != 0 && p.at("FOG") == 0 && volumes == 0) return false;
     const bool lights = p.at("HAS_SUN") != 0 || p.at("HAS_LAMPS") != 0;

@@ -3,7 +3,7 @@
 //
 // Global media attenuate in closed form. Local media do as the light volumes hold it (LIGHT_VOLUMES 1):
 // sums of optical depth along the light's rays, exact at each texel for media of constant density, in between linear; so
-// edges are as soft as a texel.
+// edges are as soft as a texel. LIGHT_VOLUMES 2: density grids are among them.
 #ifndef VOLUMETRICS_LIGHT_TRANSMITTANCE_GLSL
 #define VOLUMETRICS_LIGHT_TRANSMITTANCE_GLSL
 
@@ -37,8 +37,26 @@ struct LampVolume {
     vec4 tile;    // xy its corner in texels, < 0 none; z distance (m) where it begins, w 1 / its length
     vec4 window;  // see light_volume.glsl
 };
+#if LIGHT_VOLUMES > 1
+layout(binding = UNIT_GRID_SUN) uniform sampler3D grid_sun_volume;
+#endif
 layout(std430, binding = BINDING_LAMP_VOLUMES) readonly buffer LampVolumeBuffer { LampVolume lamp_volume[]; };  // by light index
 #endif
+
+// Of the density grids between the sun and a point: each has a part of one volume, which holds sums of its density along the
+// sun's rays, m.
+vec3 grid_sun_optical_depth(vec3 point) {
+    vec3 depth = vec3(0.0);
+#if LIGHT_VOLUMES > 1
+    for (uint i = 0u; i < volumetrics.grid_suns; ++i) {
+        vec3 place = (volumetrics.grid_sun[i].world_to_volume * vec4(point, 1.0)).xyz;
+        place = clamp(place, volumetrics.grid_sun[i].low.xyz, volumetrics.grid_sun[i].high.xyz);
+        count_work(WORK_TEXTURE_FETCHES, 1u);
+        depth += volumetrics.grid_sun[i].sigma_t.rgb * textureLod(grid_sun_volume, place, 0.0).r;
+    }
+#endif
+    return depth;
+}
 
 // Of the local media between the sun and a point. Clamping of the coordinates is right everywhere: beside the box and
 // before it the texels hold 0, behind it the last ones the whole sum.
@@ -46,7 +64,8 @@ vec3 local_sun_optical_depth(vec3 point) {
 #if LIGHT_VOLUMES
     if (volumetrics.light_transmittance == 0u) return vec3(0.0);
     count_work(WORK_TEXTURE_FETCHES, 1u);
-    return textureLod(sun_volume, (volumetrics.world_to_sun_volume * vec4(point, 1.0)).xyz, 0.0).rgb;
+    return textureLod(sun_volume, (volumetrics.world_to_sun_volume * vec4(point, 1.0)).xyz, 0.0).rgb +
+           grid_sun_optical_depth(point);
 #else
     return vec3(0.0);
 #endif

@@ -15,6 +15,7 @@ layout(r16f, binding = 0) writeonly uniform image3D volume;
 
 uniform ivec3 origin;  // of the light's part of the volume, texels
 uniform ivec3 size;
+uniform uint first_medium;
 uniform uint media_count;
 #if LAMP
 uniform vec3 lamp_position;
@@ -32,7 +33,7 @@ const int MOST_GRID_SAMPLES = 4;
 vec3 slab_optical_depth(vec3 from, vec3 direction, float path_length, float across) {
     vec3 depth = vec3(0.0);
     vec3 middle = from + direction * (0.5 * path_length);
-    for (uint i = 0u; i < media_count; ++i) {
+    for (uint i = first_medium; i < first_medium + media_count; ++i) {
         vec3 p = to_shape(local_media[i], middle);
         float reach = shape_radius(local_media[i]) + 0.5 * path_length;
         if (dot(p, p) > reach * reach) continue;

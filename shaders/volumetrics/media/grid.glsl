@@ -34,17 +34,38 @@ GridLevel grid_level(LocalMedium medium, int level) {
 
 vec3 to_voxel(LocalMedium medium, vec4 p) { return vec3(dot(medium.grid_x, p), dot(medium.grid_y, p), dot(medium.grid_z, p)); }
 
+// 0: all of the brick is empty.
+uint grid_page(GridLevel level, ivec3 brick) {
+    if (any(lessThan(brick, ivec3(0))) || any(greaterThanEqual(brick, level.bricks))) return 0u;
+    return grid_word(level.pages + uint(brick.x + level.bricks.x * (brick.y + level.bricks.y * brick.z)));
+}
+
 // 0..1, in parts of the greatest value.
 float grid_value(GridLevel level, vec3 voxel) {
     vec3 q = (voxel + 0.5) * level.scale + 0.5;
     if (level.nearest) q = floor(q + 0.5);
     ivec3 brick = ivec3(floor(q * (1.0 / float(GRID_SIDE))));
-    if (any(lessThan(brick, ivec3(0))) || any(greaterThanEqual(brick, level.bricks))) return 0.0;
-    uint page = grid_word(level.pages + uint(brick.x + level.bricks.x * (brick.y + level.bricks.y * brick.z)));
+    uint page = grid_page(level, brick);
     if (page == 0u) return 0.0;
     count_work(WORK_TEXTURE_FETCHES, 1u);
     vec3 corner = vec3((uvec3(page) >> uvec3(0u, 10u, 20u)) & 1023u) * float(GRID_SIDE + 1);
     return textureLod(grid_bricks, (corner + q - vec3(brick * GRID_SIDE) + 0.5) / vec3(textureSize(grid_bricks, 0)), 0.0).r;
+}
+
+// What is left of the line o + d t of the shape, from t on, of the empty brick that it is in there; 0: the brick is not empty.
+float grid_empty_ahead(LocalMedium medium, vec3 o, vec3 d, float t) {
+    vec3 voxel = to_voxel(medium, vec4(o + d * t, 1.0));
+    vec3 along = to_voxel(medium, vec4(d, 0.0));
+    for (int i = min(grid_level_count(medium) - 1, 2); i >= 0; i -= 2) {
+        GridLevel level = grid_level(medium, i);
+        vec3 q = ((voxel + 0.5) * level.scale + 0.5) / float(GRID_SIDE);
+        ivec3 brick = ivec3(floor(q));
+        if (grid_page(level, brick) != 0u) continue;
+        vec3 dq = along * (level.scale / float(GRID_SIDE));
+        vec3 leave = (vec3(brick) + step(0.0, dq) - q) / mix(dq, vec3(1.0e-20), equal(dq, vec3(0.0)));
+        return max(min(leave.x, min(leave.y, leave.z)), 0.0);
+    }
+    return 0.0;
 }
 
 // At a point of the shape.

@@ -44,6 +44,22 @@ float noise_over(Ray ray, float begin, float end) {
     return part.g > 0.0 ? max(part.r, 0.0) / part.g : 1.0;
 }
 
+#if GRIDS
+const float GRID_PIECES = 128.0;  // of a chord at most
+
+// As long as what a pixel sees of a grid is wide, and a voxel or more.
+float grid_piece(LocalMedium medium, Ray ray, vec2 span) {
+    vec3 along = to_voxel(medium, vec4(direction_to_shape(medium, ray.direction), 0.0));
+    float path_length = span.y - span.x;
+    float finest = max(1.0 / length(along), width_at(ray, span.x, volumetrics.target.x));
+    return path_length / clamp(ceil(path_length / finest), 1.0, GRID_PIECES);
+}
+
+float empty_ahead(LocalMedium medium, Ray ray, float t) {
+    return grid_empty_ahead(medium, to_shape(medium, ray.origin), direction_to_shape(medium, ray.direction), t);
+}
+#endif
+
 // Finds the chords between two distances. `lit`: by lights that dense media dim within: a chord is told apart in the more
 // pieces the denser it is, so that optical depths towards the light may be taken as linear over each.
 void find_chords(Ray ray, float begin, float end, bool lit) {
@@ -65,13 +81,17 @@ void find_chords(Ray ray, float begin, float end, bool lit) {
             chord_medium[chord_count] = index;
             chord_span[chord_count] = span;
             chord_piece[chord_count] = lit ? path_length / clamp(ceil(3.0 * sqrt(depth)), 1.0, 12.0) : path_length;
+#if GRIDS
+            if (has_grid(medium)) chord_piece[chord_count] = grid_piece(medium, ray, span);
+#endif
             ++chord_count;
         }
     }
 }
 
-// The next place behind `t` at which a chord begins or ends, or a piece of one, but not behind `end`.
-float next_cut(float t, float end) {
+// The next place behind `t` at which a chord begins or ends, or a piece of one, but not behind `end`. What is empty of a grid
+// is one piece.
+float next_cut(Ray ray, float t, float end) {
     float cut = end;
     float least = t + 4.0e-7 * t;
     for (int i = 0; i < chord_count; ++i) {
@@ -79,6 +99,10 @@ float next_cut(float t, float end) {
         float next = span.x;
         if (next <= least && span.y > least)
             next = min(span.x + chord_piece[i] * (floor((least - span.x) / chord_piece[i]) + 1.0), span.y);
+#if GRIDS
+        LocalMedium medium = local_media[chord_medium[i]];
+        if (has_grid(medium) && span.x <= least && span.y > least) next = min(max(next, t + empty_ahead(medium, ray, t)), span.y);
+#endif
         if (next > least) cut = min(cut, next);
     }
     return cut;

@@ -3,7 +3,7 @@
 // lit by ambient light and an unshadowed sun, as the global ones are.
 //
 // LOCAL_MEDIA: some are in view.
-#define LIGHT_VOLUMES LOCAL_MEDIA
+#define LIGHT_VOLUMES (LOCAL_MEDIA + GRIDS)
 #include "shaders/lib/pack.glsl"
 #include "shaders/volumetrics/frame/apply.glsl"
 #if LOCAL_MEDIA

@@ -9,7 +9,7 @@
 // frames. Visibility is then sampled all over the froxel, not on the column's ray alone.
 //
 // LOCAL_MEDIA: local media are in view or dim light.
-#define LIGHT_VOLUMES LOCAL_MEDIA
+#define LIGHT_VOLUMES (LOCAL_MEDIA + GRIDS)
 
 #include "shaders/lib/sampling_noise.glsl"
 #include "shaders/lib/pack.glsl"

@@ -8,7 +8,7 @@
 // (relight.frag), so that only the latter is filtered.
 //
 // LOCAL_MEDIA: 1 they only dim light, 2 they are in view too.
-#define LIGHT_VOLUMES (LOCAL_MEDIA > 0)
+#define LIGHT_VOLUMES ((LOCAL_MEDIA > 0) + GRIDS)
 #ifndef PARTS
 #define PARTS 0
 #endif
@@ -149,14 +149,14 @@ void march_segment(Ray ray, float a, float b, float offset, inout Extinction sun
     float begin = a;
     // One round more than there are parts, so that add_lamps is inlined once.
     for (bool more = true; more;) {
-        more = begin < b;
+        more = begin < b && largest(march.transmittance) > OPAQUE;
         bool first = begin == a;
 #if LAMPS
         bool joins = false;
         LampPart part = lamps;
 #endif
         if (more) {
-            float end = next_cut(begin, b);
+            float end = next_cut(ray, begin, b);
             float path_length = end - begin;
             Medium m = global_medium(ray.origin.y + ray.direction.y * begin, ray.direction.y, path_length);
             count_work(WORK_MEDIUM_SAMPLES, 1u);

@@ -81,7 +81,8 @@ class VolumetricsGrid : public GlTest, public testing::WithParamInterface<std::s
         return settings;
     }
     /// Of a pixel's ray, in the mean over the voxels it passes, by a sum as fine as asked.
-    [[nodiscard]] double depth(const Voxels& voxels, const LocalMedium& medium, int x, int y, int parts = 4000) const {
+    [[nodiscard]] double depth(const Voxels& voxels, const LocalMedium& medium, int x, int y,
+                               int parts = 4000) const {
         const glm::dvec3 d = glm::normalize(glm::dvec3(host.ray(x, y)));
         const double end = 40, step = end / parts;
         double sum = 0;
@@ -123,7 +124,8 @@ TEST_P(VolumetricsGrid, VoxelsOfOneAreABox) {
         LocalMedium medium{.sigma_a = glm::vec3(0.4F)};
         const glm::dmat4 at_origin = placed({}, glm::dvec3(0.2, 0.3, 0.25), angle);
         const glm::dvec3 middle(at_origin * glm::dvec4(-8.5, 10.5, 6.5, 1));
-        set_grid(medium, voxels.grid(), placed(glm::dvec3(0, 0, -12) - middle, glm::dvec3(0.2, 0.3, 0.25), angle), true);
+        set_grid(medium, voxels.grid(), placed(glm::dvec3(0, 0, -12) - middle, glm::dvec3(0.2, 0.3, 0.25), angle),
+                 true);
         LocalMedium box{.shape = Shape::box, .sigma_a = glm::vec3(0.4F)};
         box.center = {0, 0, -12};
         box.half_extent = {2.4F, 1.8F, 2.5F};

@@ -29,8 +29,9 @@ struct Outputs {
 /// shaders/volumetrics/light/light_transmittance.glsl where `any` says so.
 struct LightTransmittance {
     bool any = false;
-    bool light_volumes = false;           ///< value of the define LIGHT_VOLUMES: local media dim some light
-    TextureRef sun_volume, lamp_volumes;  ///< sampled there, bound by Volumetrics::bind_uniforms
+    int light_volumes =
+        0;  ///< value of the define LIGHT_VOLUMES: 1: local media dim some light, 2: density grids too
+    TextureRef sun_volume, grid_sun_volume, lamp_volumes;  ///< sampled there, bound by Volumetrics::bind_uniforms
 };
 
 }  // namespace tyndall::volumetrics

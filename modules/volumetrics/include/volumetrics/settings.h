@@ -86,6 +86,7 @@ struct FroxelSettings {
 /// What local media leave of light.
 struct LightVolumeSettings {
     int sun_size = 128;    ///< 8 … 512 texels across
+    int grid_size = 256;   ///< 16 … 512 texels across, for each density grid
     int lamp_size = 24;    ///< 4 … 64 directions across, and distances
     int lamp_count = 256;  ///< 1 … 1024
 };

@@ -61,13 +61,13 @@ struct Running {
 };
 
 std::optional<int> standard_axis(const Frame& frame, const std::string& define) {
-    if (define == "GRIDS") return frame.media.local_grids;
+    if (define == "GRIDS") return !frame.media.grids.empty();
     if (define == "HEIGHT_MEDIA") return height_media_axis(frame.media);
     if (define == "LOCAL_MEDIA") return !frame.media.local.empty();
     if (define == "HAS_SUN") return frame.inputs.has_sun;
     if (define == "LAMPS")
         return frame.inputs.has_lamps ? 1 + static_cast<int>(frame.settings.light.lamp_integration) : 0;
-    if (define == "LIGHT_VOLUMES") return frame.resources.light_volumes.any();
+    if (define == "LIGHT_VOLUMES") return frame.resources.light_volumes.axis();
     if (define == "CHROMATIC") return frame.media.chromatic;
     if (define == "COUNT_WORK") return frame.inputs.count_work;
     return std::nullopt;
@@ -93,8 +93,11 @@ const gl::Program& Frame::program(const ProgramDesc& desc, const Permutation& ow
         if (!own.contains(axis.define))
             if (const std::optional<int> value = standard_axis(*this, axis.define))
                 permutation[axis.define] = *value;
-    if (permutation.contains("GRIDS") && permutation["GRIDS"] != 0 && permutation.contains("HEIGHT_MEDIA"))
-        permutation["HEIGHT_MEDIA"] = MAX_HEIGHT_MEDIA;
+    if (permutation.contains("GRIDS")) {
+        if (permutation.contains("LOCAL_MEDIA")) permutation["GRIDS"] &= int(permutation["LOCAL_MEDIA"] > 0);
+        if (permutation["GRIDS"] != 0 && permutation.contains("HEIGHT_MEDIA"))
+            permutation["HEIGHT_MEDIA"] = MAX_HEIGHT_MEDIA;
+    }
     return shaders.get(desc, permutation);
 }
 

@@ -286,6 +286,12 @@ SettingsTable& growing_settings_table() {
                       "Texels across the box round all local media, which holds what they leave of sunlight, and "
                       "half as many along it; made anew only when media or sun change."},
                      8, 512, Effect::resource, Scale::logarithmic)
+            .integer(
+                in(&S::light_volumes, &LightVolumeSettings::grid_size),
+                {"grid_volume_size", "Grid volume size",
+                 "Most texels across the volume that holds what a density grid leaves of the sun's light, which "
+                 "is else as fine as the grid's voxels; made anew only when grid or sun turn."},
+                16, 512, Effect::resource, Scale::logarithmic)
             .integer(in(&S::light_volumes, &LightVolumeSettings::lamp_size),
                      {"lamp_volume_size", "Lamp volume size",
                       "Directions across, and distances, of the volume that holds what local media leave of the "

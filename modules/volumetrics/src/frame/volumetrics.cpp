@@ -79,8 +79,9 @@ LightTransmittance Volumetrics::add_light_passes(PassList& passes, const Inputs&
         volumes.add_passes(passes, impl_->shaders, inputs, impl_->resources.grids);
     const bool on = settings.light.transmittance && technique(settings.technique).add;
     return {.any = on && (impl_->media.has_global || volumes.any()),
-            .light_volumes = volumes.any(),
+            .light_volumes = volumes.axis(),
             .sun_volume = volumes.sun(),
+            .grid_sun_volume = volumes.grid_suns(),
             .lamp_volumes = volumes.lamps()};
 }
 

@@ -32,9 +32,16 @@ void dispatch(const gl::Program& program, glm::ivec3 origin, glm::ivec3 size, gl
     glDispatchCompute(groups.x, groups.y, groups.z);
 }
 
+/// The media, grids last; and the grids once more, as their density alone.
 std::vector<shared::LocalMedium> packed(const FrameMedia& media) {
     std::vector<shared::LocalMedium> all;
     for (const AttenuatingMedium& medium : media.attenuating) all.push_back(medium.packed);
+    for (const AttenuatingMedium& medium : media.attenuating) {
+        if (!medium.medium.grid) continue;
+        all.push_back(medium.packed);
+        all.back().sigma_s_g = {1, 1, 1, 0};
+        all.back().sigma_a_shape = {0, 0, 0, all.back().sigma_a_shape.w};
+    }
     return all;
 }
 
@@ -65,7 +72,8 @@ void fill_light_volume(ShaderLibrary& shaders, bool count_work, const gl::Textur
                                                                {"GRIDS", media.has_grids},
                                                                {"CHROMATIC", chromatic},
                                                                {"COUNT_WORK", count_work}});
-        slabs.set("media_count", static_cast<unsigned>(media.count));
+        slabs.set("first_medium", r.first_medium);
+        slabs.set("media_count", r.media_count);
         if (r.of_lamp()) {
             slabs.set("lamp_position", r.lamp);
             slabs.set("lamp_window", r.window);
@@ -81,7 +89,7 @@ void fill_light_volume(ShaderLibrary& shaders, bool count_work, const gl::Textur
 }
 
 void LightVolumes::prepare(const Inputs& inputs, const Settings& settings, FrameMedia& media) {
-    sun_ref_ = lamps_ref_ = {};
+    sun_ref_ = grid_suns_ref_ = lamps_ref_ = {};
     if (!nothing_ && !(media.empty() && media.attenuating.empty())) {
         nothing_ = light_volume_texture({1, 1, 1}, false, "volumetrics light volume of nothing");
         nothing_.clear_float(0, 0, 0, 0);
@@ -89,7 +97,9 @@ void LightVolumes::prepare(const Inputs& inputs, const Settings& settings, Frame
         no_lamps_ = gl::Buffer::of(std::span<const glm::vec4>(no_lamp), "volumetrics lamp volume table of none");
     }
     if (media.attenuating.empty()) return release_volumes();
+    std::ranges::stable_partition(media.attenuating, [](const AttenuatingMedium& m) { return !m.medium.grid; });
     sun_.prepare(inputs, settings, media);
+    grid_suns_.prepare(inputs, settings, media);
     lamps_.prepare(inputs, settings, media);
     if (!any()) return release_volumes();
     const std::vector<shared::LocalMedium> now = packed(media);
@@ -102,6 +112,8 @@ void LightVolumes::prepare(const Inputs& inputs, const Settings& settings, Frame
 
 void LightVolumes::add_passes(PassList& passes, ShaderLibrary& shaders, const Inputs& inputs,
                               const GridAtlas& grids) {
+    const bool has_grids = std::ranges::any_of(
+        uploaded_, [](const shared::LocalMedium& m) { return m.sigma_a_shape.w == SHAPE_GRID; });
     const auto add = [&](const char* name, auto& volume, const char* without) {
         if (!volume.texture()) {
             passes.skip(name, without);
@@ -114,14 +126,13 @@ void LightVolumes::add_passes(PassList& passes, ShaderLibrary& shaders, const In
         }
         passes.add(
             name, [&](PassBuilder& builder) { ref = builder.storage_write(ref); },
-            [this, &volume, &shaders, &grids, count_work = inputs.count_work](const PassContext&) {
-                const bool has_grids = std::ranges::any_of(
-                    uploaded_, [](const shared::LocalMedium& m) { return m.sigma_a_shape.w == SHAPE_GRID; });
-                volume.fill(shaders, count_work, {media_, uploaded_.size(), has_grids, grids});
+            [this, &volume, &shaders, &grids, has_grids, count_work = inputs.count_work](const PassContext&) {
+                volume.fill(shaders, count_work, {media_, has_grids, grids});
             });
         return ref;
     };
     sun_ref_ = add("volumetrics/sun_volume", sun_, "no local medium dims a sun");
+    grid_suns_ref_ = add("volumetrics/grid_sun_volume", grid_suns_, "no density grid dims a sun");
     lamps_ref_ = add("volumetrics/lamp_volumes", lamps_, "no lamp in view reaches a local medium");
     if (lamps_.left_out() > 0)
         passes.skip(
@@ -137,6 +148,7 @@ void LightVolumes::release() {
 
 void LightVolumes::release_volumes() {
     sun_.release();
+    grid_suns_.release();
     lamps_.release();
     media_ = {};
     uploaded_.clear();
@@ -144,6 +156,7 @@ void LightVolumes::release_volumes() {
 
 void LightVolumes::sample(PassBuilder& builder) const {
     builder.sample(sun_ref_);
+    builder.sample(grid_suns_ref_);
     builder.sample(lamps_ref_);
 }
 
@@ -154,13 +167,14 @@ void LightVolumes::bind() const {
         glBindSampler(unit, 0);
     };
     bind_texture(UNIT_SUN_VOLUME, sun_.texture());
+    bind_texture(UNIT_GRID_SUN, grid_suns_.texture());
     bind_texture(UNIT_LAMP_VOLUMES, lamps_.texture());
     (lamps_.table() ? lamps_.table() : no_lamps_).bind(GL_SHADER_STORAGE_BUFFER, BINDING_LAMP_VOLUMES);
 }
 
 std::size_t LightVolumes::bytes() const {
     std::size_t bytes = media_.size() + lamps_.table().size() + no_lamps_.size();
-    for (const gl::Texture* texture : {&sun_.texture(), &lamps_.texture(), &nothing_})
+    for (const gl::Texture* texture : {&sun_.texture(), &grid_suns_.texture(), &lamps_.texture(), &nothing_})
         if (*texture) bytes += gl::byte_size(texture->desc());
     return bytes;
 }
@@ -168,6 +182,8 @@ std::size_t LightVolumes::bytes() const {
 bool is_light_volume_permutation(const Permutation& permutation) {
     const auto found = permutation.find("LIGHT_VOLUMES");
     if (found == permutation.end() || found->second == 0) return true;
+    const auto grids = permutation.find("GRIDS");
+    if (found->second == 2 && grids != permutation.end() && grids->second == 0) return false;
     const auto sun = permutation.find("HAS_SUN"), lamps = permutation.find("LAMPS");
     return (sun != permutation.end() && sun->second != 0) || (lamps != permutation.end() && lamps->second != 0);
 }

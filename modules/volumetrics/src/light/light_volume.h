@@ -18,18 +18,18 @@ namespace tyndall::volumetrics {
 
 /// A part of such a texture that holds the rays of one light.
 struct LightRays {
-    glm::ivec3 origin{0}, size{0};  ///< texels
-    glm::mat4 volume_to_world{1};   ///< sun: from texture coordinates
-    glm::vec3 lamp{0};              ///< m
-    glm::vec4 window{0};            ///< lamp: see shaders/volumetrics/light/light_volume.glsl
-    float begin = 0, end = 0;       ///< lamp: distances (m) of the first and the last texel; both 0 for the sun
+    glm::ivec3 origin{0}, size{0};                    ///< texels
+    glm::mat4 volume_to_world{1};                     ///< sun: from texture coordinates
+    glm::vec3 lamp{0};                                ///< m
+    glm::vec4 window{0};                              ///< lamp: see shaders/volumetrics/light/light_volume.glsl
+    std::uint32_t first_medium = 0, media_count = 0;  ///< of those that dim light
+    float begin = 0, end = 0;  ///< lamp: distances (m) of the first and the last texel; both 0 for the sun
     [[nodiscard]] bool of_lamp() const { return end > 0; }
 };
 
 /// What dims the light.
 struct DimmingMedia {
     const gl::Buffer& buffer;
-    std::size_t count;
     bool has_grids;
     const GridAtlas& grids;
 };
@@ -38,8 +38,8 @@ struct DimmingMedia {
 void fill_light_volume(ShaderLibrary& shaders, bool count_work, const gl::Texture& volume,
                        const DimmingMedia& media, std::span<const LightRays> rays);
 
-/// The volume of the sun: a box along its rays round all local media that dim it. It is kept until those or the sun
-/// change.
+/// The volume of the sun: a box along its rays round all local media that dim it, but for density grids. It is kept
+/// until those or the sun change.
 class SunVolume {
   public:
     void prepare(const Inputs& inputs, const Settings& settings, FrameMedia& media);
@@ -55,6 +55,42 @@ class SunVolume {
     glm::mat4 world_to_volume_{1};
     LightRays rays_;
     bool stale_ = true;
+};
+
+/// Two unit directions across light, and its own.
+[[nodiscard]] glm::dmat3 sun_axes(glm::dvec3 direction);
+
+/// World to texture coordinates of a box along the sun's rays round media: across them the outermost texels lie
+/// outside of all media, so that clamping there gives 0; along them the centre of the first texel is where light
+/// enters the box and that of the last where it leaves.
+[[nodiscard]] glm::dmat4 world_to_sun_box(std::span<const AttenuatingMedium> media, glm::dvec3 direction,
+                                          glm::ivec3 size);
+
+/// The sun's light through density grids: a part of one volume for each, as fine as its voxels, or as
+/// grid_volume_size lets it be. Made anew where a grid is turned or scaled or the sun moves; a grid that drifts
+/// takes its part along.
+class GridSunVolumes {
+  public:
+    /// Throws Error for more than MAX_GRIDS.
+    void prepare(const Inputs& inputs, const Settings& settings, FrameMedia& media);
+    void release() { *this = {}; }
+    [[nodiscard]] const gl::Texture& texture() const { return texture_; }
+    [[nodiscard]] bool stale() const;
+    void fill(ShaderLibrary& shaders, bool count_work, const DimmingMedia& media);
+
+  private:
+    struct Part {
+        std::shared_ptr<const DensityGrid> grid;
+        glm::mat3 world_to_voxel{0};
+        bool nearest = false;
+        glm::vec3 direction{0};
+        glm::ivec3 origin{0}, size{0};
+        friend bool operator==(const Part&, const Part&) = default;
+    };
+    gl::Texture texture_;
+    std::vector<Part> parts_;
+    std::vector<LightRays> rays_;
+    std::vector<bool> fresh_;  ///< of each part
 };
 
 /// The volumes of lamps, tiles of one atlas: directions, all or those towards the local media in range, with a
@@ -86,9 +122,10 @@ class LampVolumes {
     std::vector<Slot> slots_;
     std::vector<glm::vec4> entries_;  ///< of the table, two for each light
     std::size_t left_out_ = 0;
+    std::uint32_t media_count_ = 0;
 };
 
-/// Both, and what passes that sample them need.
+/// All of them, and what passes that sample them need.
 class LightVolumes {
   public:
     /// Before the uniforms are uploaded: writes the volumes' places into media.data.
@@ -97,12 +134,15 @@ class LightVolumes {
     void add_passes(PassList& passes, ShaderLibrary& shaders, const Inputs& inputs, const GridAtlas& grids);
     void release();
 
-    /// Value of the axis LIGHT_VOLUMES: whether any light is dimmed by local media.
-    [[nodiscard]] bool any() const { return sun_.texture() || lamps_.texture(); }
+    /// Whether any light is dimmed by local media.
+    [[nodiscard]] bool any() const { return sun_.texture() || grid_suns_.texture() || lamps_.texture(); }
+    /// Value of the axis LIGHT_VOLUMES.
+    [[nodiscard]] int axis() const { return grid_suns_.texture() ? 2 : any() ? 1 : 0; }
     [[nodiscard]] TextureRef sun() const { return sun_ref_; }
+    [[nodiscard]] TextureRef grid_suns() const { return grid_suns_ref_; }
     [[nodiscard]] TextureRef lamps() const { return lamps_ref_; }
     void sample(PassBuilder& builder) const;
-    /// Both, in place of one that there is not a volume of nothing.
+    /// In place of one that there is not a volume of nothing.
     void bind() const;
     [[nodiscard]] std::size_t bytes() const;
 
@@ -110,12 +150,13 @@ class LightVolumes {
     void release_volumes();
 
     SunVolume sun_;
+    GridSunVolumes grid_suns_;
     LampVolumes lamps_;
     gl::Buffer media_;
     std::vector<shared::LocalMedium> uploaded_;
     gl::Texture nothing_;
     gl::Buffer no_lamps_;
-    TextureRef sun_ref_, lamps_ref_;
+    TextureRef sun_ref_, grid_suns_ref_, lamps_ref_;
 };
 
 /// Whether a combination of the axes LIGHT_VOLUMES, HAS_SUN and LAMPS can occur: without light there is none to

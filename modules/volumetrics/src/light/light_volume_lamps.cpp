@@ -129,6 +129,7 @@ void LampVolumes::prepare(const Inputs& inputs, const Settings& settings, FrameM
         if (wanted.end > wanted.begin) all.push_back(wanted);
     }
     if (all.empty()) return release();
+    media_count_ = static_cast<std::uint32_t>(media.attenuating.size());
     std::ranges::stable_sort(all, {}, &Wanted::eye_distance);
     const auto limit = static_cast<std::size_t>(settings.light_volumes.lamp_count);
     left_out_ = all.size() - std::min(all.size(), limit);
@@ -161,6 +162,7 @@ void LampVolumes::fill(ShaderLibrary& shaders, bool count_work, const DimmingMed
     std::vector<LightRays> rays;
     for (Slot& slot : slots_) {
         if (!slot.used || !slot.stale) continue;
+        slot.rays.media_count = media_count_;
         rays.push_back(slot.rays);
         slot.stale = false;
     }

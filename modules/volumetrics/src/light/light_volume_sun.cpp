@@ -6,20 +6,16 @@
 #include "media/shape.h"
 
 namespace tyndall::volumetrics {
-namespace {
 
-glm::dmat3 axes_along(glm::dvec3 direction) {
+glm::dmat3 sun_axes(glm::dvec3 direction) {
     const glm::dvec3 z = glm::normalize(direction);
     const glm::dvec3 x =
         glm::normalize(glm::cross(std::abs(z.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0), z));
     return {x, glm::cross(z, x), z};
 }
 
-/// World to texture coordinates. Across the light the outermost texels lie outside of all media, so that clamping
-/// there gives 0; along it the centre of the first texel is where light enters the box and that of the last where
-/// it leaves.
-glm::dmat4 world_to_volume(std::span<const AttenuatingMedium> media, glm::dvec3 direction, glm::ivec3 size) {
-    const glm::dmat3 axes = axes_along(direction);
+glm::dmat4 world_to_sun_box(std::span<const AttenuatingMedium> media, glm::dvec3 direction, glm::ivec3 size) {
+    const glm::dmat3 axes = sun_axes(direction);
     glm::dmat4 m(1);
     for (int i = 0; i < 3; ++i) {
         double low = std::numeric_limits<double>::max(), high = std::numeric_limits<double>::lowest();
@@ -37,7 +33,9 @@ glm::dmat4 world_to_volume(std::span<const AttenuatingMedium> media, glm::dvec3 
     return m;
 }
 
-bool same(const std::vector<shared::LocalMedium>& before, const std::vector<AttenuatingMedium>& now) {
+namespace {
+
+bool same(const std::vector<shared::LocalMedium>& before, std::span<const AttenuatingMedium> now) {
     return std::ranges::equal(before, now, [](const shared::LocalMedium& a, const AttenuatingMedium& b) {
         return std::memcmp(&a, &b.packed, sizeof a) == 0;
     });
@@ -46,21 +44,27 @@ bool same(const std::vector<shared::LocalMedium>& before, const std::vector<Atte
 }  // namespace
 
 void SunVolume::prepare(const Inputs& inputs, const Settings& settings, FrameMedia& media) {
-    if (!inputs.has_sun) return release();
+    const auto first_grid = std::ranges::find_if(media.attenuating, [](const AttenuatingMedium& m) {
+        return m.medium.shape == Shape::grid;  // which come last
+    });
+    const std::span<const AttenuatingMedium> dimming(media.attenuating.begin(), first_grid);
+    if (!inputs.has_sun || dimming.empty()) return release();
     const int across = settings.light_volumes.sun_size;
     const glm::ivec3 size{across, across, std::max(across / 2, 2)};
     const bool resized =
         !texture_ || texture_.desc().size != size || (texture_.desc().format == GL_RGBA16F) != media.chromatic;
     if (resized) texture_ = light_volume_texture(size, media.chromatic, "volumetrics sun volume");
-    if (resized || direction_ != inputs.sun_direction || !same(media_, media.attenuating)) {
+    if (resized || direction_ != inputs.sun_direction || !same(media_, dimming)) {
         const glm::dvec3 direction =
             glm::dot(inputs.sun_direction, inputs.sun_direction) > 0 ? inputs.sun_direction : glm::vec3(0, -1, 0);
-        const glm::dmat4 to_volume = world_to_volume(media.attenuating, direction, size);
+        const glm::dmat4 to_volume = world_to_sun_box(dimming, direction, size);
         world_to_volume_ = glm::mat4(to_volume);
-        rays_ = {.size = size, .volume_to_world = glm::mat4(glm::inverse(to_volume))};
+        rays_ = {.size = size,
+                 .volume_to_world = glm::mat4(glm::inverse(to_volume)),
+                 .media_count = static_cast<std::uint32_t>(dimming.size())};
         direction_ = inputs.sun_direction;
         media_.clear();
-        for (const AttenuatingMedium& medium : media.attenuating) media_.push_back(medium.packed);
+        for (const AttenuatingMedium& medium : dimming) media_.push_back(medium.packed);
         stale_ = true;
     }
     media.data.world_to_sun_volume = world_to_volume_;

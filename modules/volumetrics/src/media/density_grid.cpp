@@ -35,13 +35,15 @@ std::shared_ptr<const DensityGrid> density_grid(std::span<const glm::ivec3> bric
     for (std::size_t i = 0; i < bricks.size(); ++i) {
         const glm::ivec3 b = bricks[i];
         if ((b & 7) != glm::ivec3(0) || !seen.insert({b.x, b.y, b.z}).second)
-            throw Error(fmt::format("volumetrics: brick at voxel {} {} {} of a density grid, multiples of 8 and no "
-                                    "two alike expected",
-                                    b.x, b.y, b.z));
+            throw Error(
+                fmt::format("volumetrics: brick at voxel {} {} {} of a density grid, multiples of 8 and no "
+                            "two alike expected",
+                            b.x, b.y, b.z));
         for (int v = 0; v < DensityGrid::brick_size; ++v) {
             const float value = values[i * DensityGrid::brick_size + static_cast<std::size_t>(v)];
             if (!std::isfinite(value) || value < 0)
-                throw Error(fmt::format("volumetrics: value {} of a density grid, a number from 0 on expected", value));
+                throw Error(
+                    fmt::format("volumetrics: value {} of a density grid, a number from 0 on expected", value));
             if (value == 0) continue;
             const glm::ivec3 voxel = b + glm::ivec3(v & 7, v >> 3 & 7, v >> 6);
             grid->lower = glm::min(grid->lower, voxel);

@@ -14,8 +14,9 @@
 namespace tyndall::volumetrics {
 namespace {
 
-constexpr int side = GRID_SIDE, texels = side + 1;  // of a brick in the atlas: the first texels of the next ones too
-constexpr int most_bricks_a_side = 1023;            // 10 bits
+constexpr int side = GRID_SIDE,
+              texels = side + 1;          // of a brick in the atlas: the first texels of the next ones too
+constexpr int most_bricks_a_side = 1023;  // 10 bits
 constexpr std::size_t most_bytes = std::size_t{1} << 30;
 constexpr std::uint32_t page_in_use = 1U << 30;
 

@@ -16,9 +16,9 @@ using Grids = std::vector<std::shared_ptr<const DensityGrid>>;
 /// the grid's greatest, in 16 bits: wrong by at most 1 / 131,070 of it. Level 0 are the voxels; each level is the
 /// mean over 2^3 of the one before.
 struct GridPages {
-    std::vector<std::uint32_t> pages;  ///< headers, then per level a page for each brick
-    glm::ivec3 bricks{0};              ///< along the axes of the atlas
-    std::vector<std::uint16_t> values; ///< of the atlas, x fastest
+    std::vector<std::uint32_t> pages;   ///< headers, then per level a page for each brick
+    glm::ivec3 bricks{0};               ///< along the axes of the atlas
+    std::vector<std::uint16_t> values;  ///< of the atlas, x fastest
 };
 
 /// Throws Error for grids that are too large for it.

@@ -104,7 +104,6 @@ void add_global(const Inputs& inputs, FrameMedia& media) {
 
 void add_local(const LocalMedium& medium, const ViewBounds& bounds, FrameMedia& media) {
     media.local.push_back(pack_local(medium, media.grids));
-    media.local_grids |= medium.shape == Shape::grid;
     media.local_bounds.push_back(bounds);
     media.local_emission |= !is_zero(medium.emission);
     media.local_noise |= media.local.back().emission_noise.w > 0;

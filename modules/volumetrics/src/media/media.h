@@ -43,10 +43,9 @@ struct FrameMedia {
     bool has_global = false;
     bool local_emission = false;
     bool local_noise = false;
-    bool local_grids = false;  ///< some of `local` are density grids
-    Grids grids;               ///< of all inputs: a turn of the camera changes none
-    bool rayleigh = false;     ///< some medium scatters as air does
-    bool chromatic = false;    ///< some medium's extinction is coloured, or is taken so: always where `rayleigh`
+    Grids grids;             ///< of all inputs, in view or not
+    bool rayleigh = false;   ///< some medium scatters as air does
+    bool chromatic = false;  ///< some medium's extinction is coloured, or is taken so: always where `rayleigh`
 
     [[nodiscard]] bool empty() const { return !has_global && local.empty(); }
 };

@@ -25,7 +25,7 @@ const ProgramDesc program{
              {"HAS_SUN", {0, 1}},
              {"LAMPS", {0, 1}},  // 1: at a point, as LampIntegration::center
              {"GRIDS", {0, 1}},
-             {"LIGHT_VOLUMES", {0, 1}},
+             {"LIGHT_VOLUMES", {0, 1, 2}},
              {"CHROMATIC", {0, 1}},
              {"COUNT_WORK", {0, 1}}},
     .valid = [](const Permutation& p) { return is_light_volume_permutation(p) && is_grid_permutation(p); }};

@@ -21,8 +21,7 @@ const ProgramDesc lines_program{.name = "volumetrics/epipolar_lines",
 const ProgramRegistry::Registration lines_registration(lines_program);
 
 bool is_valid(const Permutation& p) {
-    if (p.at("GRIDS") != 0 && p.at("LOCAL_MEDIA") == 1) return false;
-    return p.at("HEIGHT_MEDIA") == MAX_HEIGHT_MEDIA || p.at("LOCAL_MEDIA") == 1;
+    return is_grid_permutation(p) && (p.at("HEIGHT_MEDIA") == MAX_HEIGHT_MEDIA || p.at("LOCAL_MEDIA") == 1);
 }
 
 const ProgramDesc program{.name = "volumetrics/epipolar",

@@ -7,7 +7,7 @@ namespace tyndall::volumetrics {
 namespace {
 
 bool is_permutation(const Permutation& p) {
-    if (p.at("LOCAL_MEDIA") == 0 && p.at("HEIGHT_MEDIA") > 1) return false;
+    if (!is_grid_permutation(p) || (p.at("LOCAL_MEDIA") == 0 && p.at("HEIGHT_MEDIA") > 1)) return false;
     return p.at("FROXEL_HISTORY") == 0 || p.at("HAS_SUN") + p.at("LAMPS") > 0;
 }
 
@@ -15,6 +15,7 @@ const ProgramDesc program{.name = "volumetrics/froxel_light",
                           .stages = {{GL_COMPUTE_SHADER, "shaders/volumetrics/techniques/froxel_light.comp"}},
                           .axes = {{"HEIGHT_MEDIA", {0, 1, MAX_HEIGHT_MEDIA}},
                                    {"LOCAL_MEDIA", {0, 1}},  // in view, or they dim light
+                                   {"GRIDS", {0, 1}},
                                    {"HAS_SUN", {0, 1}},
                                    {"LAMPS", {0, 1, 2}},  // 1 + LampIntegration
                                    {"CHROMATIC", {0, 1}},

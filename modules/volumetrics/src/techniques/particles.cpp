@@ -23,7 +23,7 @@ const ProgramDesc simulate_program{
     .stages = {{GL_COMPUTE_SHADER, "shaders/volumetrics/techniques/particles_simulate.comp"}},
     .axes = {has_sun,
              {"LAMPS", {0, 2}},  // 2: over a segment, as LampIntegration::segment
-             {"LIGHT_VOLUMES", {0, 1}},
+             {"LIGHT_VOLUMES", {0, 1, 2}},
              {"GRIDS", {0, 1}},
              count_work},
     .valid = is_light_volume_permutation};

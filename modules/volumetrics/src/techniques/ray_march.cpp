@@ -10,7 +10,7 @@ namespace {
 
 bool is_valid(const Permutation& p) {
     const int local = p.at("LOCAL_MEDIA");
-    if (!is_grid_permutation(p) || (p.at("GRIDS") != 0 && local != 2)) return false;
+    if (!is_grid_permutation(p)) return false;
     const bool lit = p.at("HAS_SUN") + p.at("LAMPS") > 0;
     if (local == 1 && !lit) return false;
     if (local == 0 && lit && p.at("HEIGHT_MEDIA") > 1) return false;  // see local_media_axis
