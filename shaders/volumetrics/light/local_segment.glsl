@@ -37,7 +37,7 @@ void add_local_segments(Ray ray, float begin, float end, vec3 ambient, inout Ext
     local_sun_front = local_sun_depth(ray, begin);
 #endif
     while (begin < end) {
-        float part_end = next_cut(ray, begin, end);
+        float part_end = next_cut(ray, begin, end, largest(march.transmittance));
         float path_length = part_end - begin;
         Medium m = global_medium(ray.origin.y + ray.direction.y * begin, ray.direction.y, path_length);
         count_work(WORK_MEDIUM_SAMPLES, 1u);

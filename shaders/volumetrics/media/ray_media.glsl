@@ -16,7 +16,7 @@ layout(std430, binding = BINDING_SCREEN_MEDIA) readonly buffer ScreenMediaBuffer
 layout(binding = 1) uniform sampler3D noise_volume;
 
 const int MOST_GRID_SAMPLES = 8;            // of a part of a ray
-const int MOST_GRID_SAMPLES_OF_CHORD = 64;  // of all of it
+const int MOST_GRID_SAMPLES_OF_CHORD = 256;  // of all of it
 
 // Chords that are kept. A ray may meet more media: those are found again wherever they are asked for, and cut nothing.
 const int MAX_CHORDS = 16;
@@ -46,6 +46,7 @@ float noise_over(Ray ray, float begin, float end) {
 
 #if GRIDS
 const float GRID_PIECES = 128.0;  // of a chord at most
+const float GRID_GROWTH = 8.0;
 
 // As long as what a pixel sees of a grid is wide, and a voxel or more.
 float grid_piece(LocalMedium medium, Ray ray, vec2 span) {
@@ -54,6 +55,8 @@ float grid_piece(LocalMedium medium, Ray ray, vec2 span) {
     float finest = max(1.0 / length(along), width_at(ray, span.x, volumetrics.target.x));
     return path_length / clamp(ceil(path_length / finest), 1.0, GRID_PIECES);
 }
+
+float grid_growth(float transmittance) { return clamp(inversesqrt(max(transmittance, 1.0e-6)), 1.0, GRID_GROWTH); }
 
 float empty_ahead(LocalMedium medium, Ray ray, float t) {
     return grid_empty_ahead(medium, to_shape(medium, ray.origin), direction_to_shape(medium, ray.direction), t);
@@ -90,8 +93,8 @@ void find_chords(Ray ray, float begin, float end, bool lit) {
 }
 
 // The next place behind `t` at which a chord begins or ends, or a piece of one, but not behind `end`. What is empty of a grid
-// is one piece.
-float next_cut(Ray ray, float t, float end) {
+// is one piece, and pieces of it grow as what is left of its light falls.
+float next_cut(Ray ray, float t, float end, float transmittance) {
     float cut = end;
     float least = t + 4.0e-7 * t;
     for (int i = 0; i < chord_count; ++i) {
@@ -101,7 +104,8 @@ float next_cut(Ray ray, float t, float end) {
             next = min(span.x + chord_piece[i] * (floor((least - span.x) / chord_piece[i]) + 1.0), span.y);
 #if GRIDS
         LocalMedium medium = local_media[chord_medium[i]];
-        if (has_grid(medium) && span.x <= least && span.y > least) next = min(max(next, t + empty_ahead(medium, ray, t)), span.y);
+        if (has_grid(medium) && span.x <= least && span.y > least)
+            next = min(t + max(chord_piece[i] * grid_growth(transmittance), empty_ahead(medium, ray, t)), span.y);
 #endif
         if (next > least) cut = min(cut, next);
     }

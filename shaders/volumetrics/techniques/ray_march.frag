@@ -156,7 +156,7 @@ void march_segment(Ray ray, float a, float b, float offset, inout Extinction sun
         LampPart part = lamps;
 #endif
         if (more) {
-            float end = next_cut(ray, begin, b);
+            float end = next_cut(ray, begin, b, largest(march.transmittance));
             float path_length = end - begin;
             Medium m = global_medium(ray.origin.y + ray.direction.y * begin, ray.direction.y, path_length);
             count_work(WORK_MEDIUM_SAMPLES, 1u);

@@ -135,7 +135,10 @@ vec3 local_optical_depth(vec3 point, vec3 direction, float path_length, MediaMas
             vec2 inside = inside_shape(medium, point, direction, 0.0, path_length);
             if (inside.x >= inside.y) continue;
             float density = 1.0;
-            if (!is_homogeneous(medium)) {
+            if (has_grid(medium)) {
+                density = mean_grid(medium, point, direction, inside.x, inside.y, 0.0, 8 * light_steps);
+                work += 8 * light_steps;
+            } else if (!is_homogeneous(medium)) {
                 density = 0.0;
                 for (int k = 0; k < light_steps; ++k) {
                     float t = mix(inside.x, inside.y, (float(k) + 0.5) / float(light_steps));

@@ -1,7 +1,7 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-
-#include <fmt/format.h>
 
 #include "engine/core/error.h"
 #include "light/light_volume.h"
@@ -17,7 +17,9 @@ glm::ivec3 part_size(const AttenuatingMedium& grid, glm::dvec3 direction, int li
         voxels = std::max(voxels, double(glm::length(glm::vec3(row))));
     const glm::dmat3 axes = sun_axes(direction);
     const auto spanned = [&](int axis) { return 2 * half_extent_along(grid.medium, axes[axis]) * voxels; };
-    const auto texels = [&](double wanted) { return static_cast<int>(std::clamp(std::ceil(wanted), 4.0, double(limit))); };
+    const auto texels = [&](double wanted) {
+        return static_cast<int>(std::clamp(std::ceil(wanted), 4.0, double(limit)));
+    };
     return {texels(2 * spanned(0) + 2), texels(2 * spanned(1) + 2), texels(spanned(2) + 1)};
 }
 
@@ -28,12 +30,13 @@ bool GridSunVolumes::stale() const {
 }
 
 void GridSunVolumes::prepare(const Inputs& inputs, const Settings& settings, FrameMedia& media) {
-    const auto first = std::ranges::find_if(media.attenuating,
-                                            [](const AttenuatingMedium& m) { return m.medium.shape == Shape::grid; });
+    const auto first = std::ranges::find_if(
+        media.attenuating, [](const AttenuatingMedium& m) { return m.medium.shape == Shape::grid; });
     const std::span<const AttenuatingMedium> grids(first, media.attenuating.end());
     if (!inputs.has_sun || grids.empty()) return release();
     if (grids.size() > MAX_GRIDS)
-        throw Error(fmt::format("volumetrics: {} density grids that dim light, at most {} expected", grids.size(), MAX_GRIDS));
+        throw Error(fmt::format("volumetrics: {} density grids that dim light, at most {} expected", grids.size(),
+                                MAX_GRIDS));
     const glm::vec3 direction =
         glm::dot(inputs.sun_direction, inputs.sun_direction) > 0 ? inputs.sun_direction : glm::vec3(0, -1, 0);
 
@@ -41,8 +44,12 @@ void GridSunVolumes::prepare(const Inputs& inputs, const Settings& settings, Fra
     glm::ivec3 whole(0);
     for (const AttenuatingMedium& grid : grids) {
         const glm::ivec3 size = part_size(grid, direction, settings.light_volumes.grid_size);
-        parts.push_back({grid.medium.grid, glm::mat3(grid.medium.world_to_voxel), grid.medium.nearest, direction,
-                         {0, 0, whole.z}, size});
+        parts.push_back({grid.medium.grid,
+                         glm::mat3(grid.medium.world_to_voxel),
+                         grid.medium.nearest,
+                         direction,
+                         {0, 0, whole.z},
+                         size});
         whole = {glm::max(glm::ivec2(whole), glm::ivec2(size)), whole.z + size.z};
     }
     if (!texture_ || texture_.desc().size != whole) {

@@ -12,7 +12,8 @@ namespace tyndall::volumetrics {
 namespace {
 
 const PermutationAxis has_sun{"HAS_SUN", {0, 1}}, global_media{"GLOBAL_MEDIA", {0, 1}},
-    local_media{"LOCAL_MEDIA", {0, 1}}, chromatic{"CHROMATIC", {0, 1}}, count_work{"COUNT_WORK", {0, 1}};
+    local_media{"LOCAL_MEDIA", {0, 1}}, grids{"GRIDS", {0, 1}}, chromatic{"CHROMATIC", {0, 1}},
+    count_work{"COUNT_WORK", {0, 1}};
 
 bool has_media(const Permutation& p) {
     return p.at("GLOBAL_MEDIA") != 0 || p.at("LOCAL_MEDIA") != 0;
@@ -24,7 +25,7 @@ const ProgramDesc simulate_program{
     .axes = {has_sun,
              {"LAMPS", {0, 2}},  // 2: over a segment, as LampIntegration::segment
              {"LIGHT_VOLUMES", {0, 1, 2}},
-             {"GRIDS", {0, 1}},
+             grids,
              count_work},
     .valid = is_light_volume_permutation};
 const ProgramDesc draw_program{.name = "volumetrics/particles",
@@ -36,8 +37,8 @@ const ProgramDesc resolve_program{
     .name = "volumetrics/particles_resolve",
     .stages = {{GL_VERTEX_SHADER, "shaders/volumetrics/techniques/view_ray.vert"},
                {GL_FRAGMENT_SHADER, "shaders/volumetrics/techniques/particles_resolve.frag"}},
-    .axes = {global_media, local_media, has_sun, chromatic, count_work},
-    .valid = has_media};
+    .axes = {global_media, local_media, grids, has_sun, chromatic, count_work},
+    .valid = [](const Permutation& p) { return has_media(p) && is_grid_permutation(p); }};
 const ProgramRegistry::Registration simulate_registration(simulate_program), draw_registration(draw_program),
     resolve_registration(resolve_program);
 
