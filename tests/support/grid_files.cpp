@@ -74,8 +74,8 @@ using Handle = nanovdb::GridHandle<nanovdb::HostBuffer>;
 
 template <class Build>
 Handle to_nano(const openvdb::FloatGrid& grid, nanovdb::ChecksumMode checksum) {
-    return nanovdb::openToNanoVDB<nanovdb::HostBuffer, openvdb::FloatTree, Build>(
-        grid, nanovdb::StatsMode::Default, checksum);
+    return nanovdb::openToNanoVDB<nanovdb::HostBuffer, openvdb::FloatTree, Build>(grid, nanovdb::StatsMode::Default,
+                                                                                  checksum);
 }
 
 Handle to_nano(const openvdb::FloatGrid& grid, NanoBits bits, nanovdb::ChecksumMode checksum) {
@@ -124,8 +124,8 @@ void write_nanovdb(const std::filesystem::path& path, const std::vector<TestGrid
     openvdb::initialize();
     std::vector<Handle> handles;
     for (const TestGrid& grid : grids)
-        handles.push_back(to_nano(
-            grid, bits, whole_checksum ? nanovdb::ChecksumMode::Full : nanovdb::ChecksumMode::Partial));
+        handles.push_back(
+            to_nano(grid, bits, whole_checksum ? nanovdb::ChecksumMode::Full : nanovdb::ChecksumMode::Partial));
     nanovdb::io::writeGrids(path.string(), handles, static_cast<nanovdb::io::Codec>(codec));
 }
 

@@ -21,7 +21,8 @@ using Send = IsolatedWork::Send;
 
 void expect_error(const std::function<void(const Send&)>& work, const std::string& because,
                   const IsolationLimits& limits = {}) {
-    EXPECT_THAT([&] { (void)IsolatedWork(work, limits).receive<char>(); }, ThrowsMessage<Error>(HasSubstr(because)));
+    EXPECT_THAT([&] { (void)IsolatedWork(work, limits).receive<char>(); },
+                ThrowsMessage<Error>(HasSubstr(because)));
 }
 
 TEST(IsolatedWork, SendsMoreThanAPipeHolds) {
@@ -68,7 +69,9 @@ TEST(IsolatedWork, MemoryIsLimited) {
 
 TEST(IsolatedWork, NobodyWaitsForAChildThatIsNotNeeded) {
     const auto began = std::chrono::steady_clock::now();
-    { IsolatedWork work([](const Send&) { ::sleep(60); }); }
+    {
+        IsolatedWork work([](const Send&) { ::sleep(60); });
+    }
     EXPECT_LT(std::chrono::steady_clock::now() - began, std::chrono::seconds(5));
 }
 

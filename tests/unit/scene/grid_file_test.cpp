@@ -95,8 +95,10 @@ TEST_F(GridFile, HalfFloatsAreRead) {
 }
 
 TEST_F(GridFile, QuantisedNanoVdbIsNear) {
-    const std::pair<NanoBits, double> cases[] = {
-        {NanoBits::four, 0.76 / 30}, {NanoBits::eight, 0.76 / 510}, {NanoBits::sixteen, 1e-5}, {NanoBits::varying, 0.01}};
+    const std::pair<NanoBits, double> cases[] = {{NanoBits::four, 0.76 / 30},
+                                                 {NanoBits::eight, 0.76 / 510},
+                                                 {NanoBits::sixteen, 1e-5},
+                                                 {NanoBits::varying, 0.01}};
     for (const auto& [bits, tolerance] : cases)
         for (const auto codec : {NanoCodec::none, NanoCodec::zip, NanoCodec::blosc}) {
             write_nanovdb(folder / "grid.nvdb", {cloud()}, bits, codec);
@@ -108,7 +110,8 @@ TEST_F(GridFile, QuantisedNanoVdbIsNear) {
 
 TEST_F(GridFile, TilesBecomeBricks) {
     TestGrid grid;
-    grid.tiles = {{{-8, 0, 8}, 8, 0.5F}, {{128, 0, 0}, 128, 0.25F}, {{0, 300, 0}, 128, 0.75F, false}, {{0, 0, 5000}, 8, 0}};
+    grid.tiles = {
+        {{-8, 0, 8}, 8, 0.5F}, {{128, 0, 0}, 128, 0.25F}, {{0, 300, 0}, 128, 0.75F, false}, {{0, 0, 5000}, 8, 0}};
     for (const auto& file : {vdb({grid}), nanovdb({grid})}) {
         const auto loaded = load_density_grid(file, "density");
         EXPECT_EQ(loaded->bricks.size(), 1U + 16U * 16U * 16U);
@@ -178,7 +181,8 @@ TEST_F(GridFile, WhatIsNoDensityIsRefused) {
         grid.index_to_grid = glm::scale(glm::dmat4(1), glm::dvec3(1000));
         grid.index_to_grid[1] = {1000, 1e-4, 0, 0};
     });
-    const auto tiny = with([](TestGrid& grid) { grid.index_to_grid = glm::scale(glm::dmat4(1), glm::dvec3(1e-8, 1000, 1000)); });
+    const auto tiny =
+        with([](TestGrid& grid) { grid.index_to_grid = glm::scale(glm::dmat4(1), glm::dvec3(1e-8, 1000, 1000)); });
     const auto tile = [&](TestGrid::Tile value) { return with([&](TestGrid& grid) { grid.tiles = {value}; }); };
     const std::pair<TestGrid, std::string> cases[] = {
         {of_kind(TestGrid::Kind::level_set), "a fog volume expected"},
@@ -193,7 +197,10 @@ TEST_F(GridFile, WhatIsNoDensityIsRefused) {
         {tile({{0, 0, 0}, 8, -1}), "a voxel is -1"},
         {tile({{0, 0, 0}, 4096, 1}), "too large: more than 131072 bricks"},
         {one_voxel(1, {1 << 24, 0, 0}), "too large: a voxel at 16777216"},
-        {with([](TestGrid& grid) { grid.voxels.push_back({{40'000, 0, 0}, 1}); }), "too large: 40000 voxels long"},
+        {with([](TestGrid& grid) {
+             grid.voxels.push_back({{40'000, 0, 0}, 1});
+         }),
+         "too large: 40000 voxels long"},
         {flat, "its transform has no inverse"},
         {tiny, "its transform has voxels of 1e-08 m"},
     };

@@ -129,7 +129,9 @@ TEST_F(GridMedium, EveryMistakeNamesFileIndexAndKey) {
     };
     for (const auto& [medium, fragment] : cases)
         EXPECT_THAT(
-            [&] { (void)parse({cloud(), medium}); },
+            [&] {
+                (void)parse({cloud(), medium});
+            },
             ThrowsMessage<Error>(AllOf(HasSubstr("fog.json: media[1]"), HasSubstr(fragment), Not(HasSubstr("\n")))))
             << medium;
 }
@@ -146,7 +148,8 @@ TEST_F(GridMedium, MediaFilesAndScenesNameFilesOfTheirOwnFolder) {
 TEST_F(GridMedium, WindMovesIt) {
     GltfBuilder builder;
     builder.triangle();
-    builder.doc["scenes"][0]["extras"]["media"] = {with(with(cloud(), "wind", {1, 0, -2}), "translation", {5, 6, 7})};
+    builder.doc["scenes"][0]["extras"]["media"] = {
+        with(with(cloud(), "wind", {1, 0, -2}), "translation", {5, 6, 7})};
     Scene scene = load(builder);
     EXPECT_EQ(scene.media[0].center, glm::vec3(5, 6, 7));
     animate(scene, 3);

@@ -68,9 +68,9 @@ class VolumeTexture : public SceneFolderTest {
     }
     void expect_refused(const json& head, const std::string& because) const {
         const auto file = save(head);
-        EXPECT_THAT([&] { (void)load_density_grid(file, "density"); },
-                    ThrowsMessage<Error>(
-                        AllOf(StartsWith(file.string()), HasSubstr(because), Not(HasSubstr("\n")))))
+        EXPECT_THAT(
+            [&] { (void)load_density_grid(file, "density"); },
+            ThrowsMessage<Error>(AllOf(StartsWith(file.string()), HasSubstr(because), Not(HasSubstr("\n")))))
             << head;
     }
 };
