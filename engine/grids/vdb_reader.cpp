@@ -61,9 +61,7 @@ BrickValues active_values(const Tree::LeafNodeType& leaf) {
     return values;
 }
 
-}  // namespace
-
-void read_vdb(const std::filesystem::path& path, const std::string& name, GridSink& sink) {
+void read(const std::filesystem::path& path, const std::string& name, GridSink& sink) {
     openvdb::initialize();
     openvdb::io::File file(path.string());
     file.setCopyMaxBytes(0);
@@ -84,6 +82,18 @@ void read_vdb(const std::filesystem::path& path, const std::string& name, GridSi
         sink.tile(as_glm(box.min()), box.dim().x(), *tile);
     }
     for (auto leaf = tree.cbeginLeaf(); leaf; ++leaf) sink.brick(as_glm(leaf->origin()), active_values(*leaf));
+}
+
+}  // namespace
+
+void read_vdb(const std::filesystem::path& path, const std::string& name, GridSink& sink) {
+    try {
+        read(path, name, sink);
+    } catch (const openvdb::Exception& e) {
+        const std::string_view message = e.what();  // "IoError: not a VDB file"
+        const std::size_t colon = message.find(": ");
+        throw Unreadable(fmt::format("OpenVDB: {}", message.substr(colon < message.size() ? colon + 2 : 0)));
+    }
 }
 
 }  // namespace tyndall::grids

@@ -13,6 +13,7 @@ namespace {
 static_assert(grids::brick_side == DensityGrid::side);
 
 void require_density(float value) {
+    if (std::isnan(value)) value = std::abs(value);  // no sign in the message
     if (!std::isfinite(value) || value < 0 || value > DensityGridBuilder::greatest)
         throw Error(
             fmt::format("a voxel is {}, values from 0 to {:g} expected", value, DensityGridBuilder::greatest));

@@ -54,12 +54,7 @@ Header parse_header(const fs::path& path) {
     field.require_object({"image", "size", "type", "voxel_size", "origin"});
     Header header;
     const JsonField image = field.at("image");
-    const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
-    try {
-        header.image = resolve_inside(folder, image.text());
-    } catch (const Error& e) {
-        throw Error(fmt::format("{}: {}", image.where, e.what()));
-    }
+    header.image = image.file_in(path.parent_path());
     header.size = parse_size(field.at("size"));
     const std::string extension = header.image.extension().string();
     if (extension != ".raw" && extension != ".png" && extension != ".exr")
