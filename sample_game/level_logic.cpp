@@ -1,6 +1,10 @@
 #include "sample_game/level_logic.h"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
+
+#include "engine/core/files.h"
 
 namespace tyndall {
 namespace {
@@ -36,7 +40,8 @@ LevelLogic::LevelLogic(const Scene& scene)
              {"thin", 0.35f},
              {"thick", 2.5f},
              // A level is a few hundred metres wide: as if it were kilometres.
-             {"blue air", 0.0f, 50}};
+             {"blue air", 0.0f, 50},
+             {"clouds", 1.0f, 0, "assets/grids/clouds.json"}};
 }
 
 void LevelLogic::set_day_time(Scene& scene, std::size_t index) {
@@ -70,6 +75,8 @@ void LevelLogic::set_fog(Scene& scene, std::size_t index) {
         medium.sigma_a *= factor;
         medium.emission *= factor;
     }
+    if (!fogs_[index].added.empty())
+        std::ranges::move(load_media(data_root() / fogs_[index].added), std::back_inserter(scene.media));
     if (fogs_[index].air > 0) scene.media.push_back(clear_air(fogs_[index].air));
 }
 

@@ -20,8 +20,9 @@ struct DayTime {
 /// How much of the level's own fog there is, and what is added.
 struct FogPreset {
     std::string name;
-    float factor;   ///< on all coefficients of the level's media; 0 removes them
-    float air = 0;  ///< 0: none; else clear air, of a world that is so many times larger
+    float factor;            ///< on all coefficients of the level's media; 0 removes them
+    float air = 0;           ///< 0: none; else clear air, of a world that is so many times larger
+    std::string added = {};  ///< media file, of the data folder, whose media are added
 };
 
 /// Changes a level's sun and media, always starting from how it was loaded.
@@ -30,7 +31,7 @@ class LevelLogic {
     explicit LevelLogic(const Scene& scene);
     /// Index 0 is the level as loaded.
     void set_day_time(Scene& scene, std::size_t index);
-    void set_fog(Scene& scene, std::size_t index);
+    void set_fog(Scene& scene, std::size_t index);  ///< throws Error: what it adds cannot be read
     [[nodiscard]] const std::vector<DayTime>& day_times() const { return day_times_; }
     [[nodiscard]] const std::vector<FogPreset>& fogs() const { return fogs_; }
     [[nodiscard]] std::size_t day_time() const { return day_time_; }

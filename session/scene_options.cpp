@@ -35,6 +35,7 @@ void SceneOptions::add_to(CLI::App& command, const std::string& default_scene, c
     if (default_scene.empty()) scene_option->required();
     command.add_option("--size", size, "pixels, WxH")->capture_default_str();
     command.add_option("--media", media, "media file that replaces the scene's own media");
+    command.add_option("--add-media", add_media, "media file whose media are added");
     command.add_option("--technique", technique, "volumetric technique (tyndall list techniques)");
     command.add_option("--preset", preset, "settings preset: a name (tyndall list presets) or a file");
     command.add_option("--set", set, "key=value, repeatable (tyndall list settings)")
@@ -66,6 +67,7 @@ void SceneOptions::apply(SettingsSet& settings) const {
 std::vector<NamedFile> SceneOptions::inputs() const {
     std::vector<NamedFile> files{{"SCENE", scene}};
     if (media) files.push_back({"--media", *media});
+    if (add_media) files.push_back({"--add-media", *add_media});
     if (preset) files.push_back({"--preset", *preset});
     return files;
 }
@@ -73,6 +75,7 @@ std::vector<NamedFile> SceneOptions::inputs() const {
 Scene SceneOptions::load() const {
     Scene loaded = load_gltf(scene);
     if (media) loaded.media = load_media(*media);
+    if (add_media) std::ranges::move(load_media(*add_media), std::back_inserter(loaded.media));
     add_missing_camera(loaded);
     animate(loaded, 0);
     return loaded;

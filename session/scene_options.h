@@ -20,7 +20,7 @@ namespace tyndall {
 struct SceneOptions {
     std::string scene;
     std::string size;
-    std::optional<std::string> media, technique, preset;
+    std::optional<std::string> media, add_media, technique, preset;
     std::vector<std::string> set;
 
     /// Adds the options to a command; the scene is required unless it has a default.

@@ -61,7 +61,7 @@ struct Running {
 };
 
 std::optional<int> standard_axis(const Frame& frame, const std::string& define) {
-    if (define == "GRIDS") return !frame.media.grids.empty();
+    if (define == "GRIDS") return frame.media.uses_grids;
     if (define == "HEIGHT_MEDIA") return height_media_axis(frame.media);
     if (define == "LOCAL_MEDIA") return !frame.media.local.empty();
     if (define == "HAS_SUN") return frame.inputs.has_sun;

@@ -19,14 +19,16 @@ void Resources::upload(const Settings& settings, FrameMedia& media) {
         screen_media.assign(std::span<const std::uint32_t>(volumetrics::screen_media(media.local_bounds)),
                             "volumetrics media of the screen");
     }
-    grids.prepare(media.grids);
+    if (media.uses_grids || media.grids.empty()) grids.prepare(media.grids);
     noise.prepare(settings);
 }
 
-void Resources::release() {
+void Resources::release(const FrameMedia& media) {
     for (gl::Buffer* buffer : {&uniforms, &local_media, &screen_media, &media_tiles}) *buffer = {};
-    grids.release();
-    light_volumes.release();
+    if (media.grids.empty()) {
+        grids.release();
+        light_volumes.release();
+    }
     noise.release();
     temporal.release();
 }

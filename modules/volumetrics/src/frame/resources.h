@@ -29,8 +29,8 @@ struct Resources {
     } this_frame;
 
     void upload(const Settings& settings, FrameMedia& media);
-    /// No medium is in view: frees all but the samplers.
-    void release();
+    /// No medium is in view: frees all but the samplers, and what is made of density grids while there are any.
+    void release(const FrameMedia& media);
     [[nodiscard]] std::size_t bytes() const;  ///< held between frames
 };
 

@@ -67,7 +67,7 @@ void Volumetrics::prepare(const Inputs& inputs, const Settings& settings) {
     if (impl_->technique != settings.technique || impl_->media.empty()) impl_->kept.reset();
     impl_->technique = settings.technique;
     if (impl_->media.empty() && !impl_->resources.light_volumes.any())
-        impl_->resources.release();
+        impl_->resources.release(impl_->media);
     else
         impl_->resources.upload(settings, impl_->media);
 }

@@ -32,6 +32,13 @@ void dispatch(const gl::Program& program, glm::ivec3 origin, glm::ivec3 size, gl
     glDispatchCompute(groups.x, groups.y, groups.z);
 }
 
+bool is_active(const GridSunVolumes& volumes) {
+    return volumes.active();
+}
+bool is_active(const auto& volume) {
+    return static_cast<bool>(volume.texture());
+}
+
 /// The media, grids last; and the grids once more, as their density alone.
 std::vector<shared::LocalMedium> packed(const FrameMedia& media) {
     std::vector<shared::LocalMedium> all;
@@ -96,12 +103,12 @@ void LightVolumes::prepare(const Inputs& inputs, const Settings& settings, Frame
         const glm::vec4 no_lamp[2] = {glm::vec4(-1), glm::vec4(0)};
         no_lamps_ = gl::Buffer::of(std::span<const glm::vec4>(no_lamp), "volumetrics lamp volume table of none");
     }
-    if (media.attenuating.empty()) return release_volumes();
     std::ranges::stable_partition(media.attenuating, [](const AttenuatingMedium& m) { return !m.medium.grid; });
-    sun_.prepare(inputs, settings, media);
     grid_suns_.prepare(inputs, settings, media);
+    if (media.attenuating.empty()) return release_volumes(media);
+    sun_.prepare(inputs, settings, media);
     lamps_.prepare(inputs, settings, media);
-    if (!any()) return release_volumes();
+    if (!any()) return release_volumes(media);
     const std::vector<shared::LocalMedium> now = packed(media);
     if (now.size() == uploaded_.size() &&
         std::memcmp(now.data(), uploaded_.data(), now.size() * sizeof now[0]) == 0)
@@ -115,7 +122,7 @@ void LightVolumes::add_passes(PassList& passes, ShaderLibrary& shaders, const In
     const bool has_grids = std::ranges::any_of(
         uploaded_, [](const shared::LocalMedium& m) { return m.sigma_a_shape.w == SHAPE_GRID; });
     const auto add = [&](const char* name, auto& volume, const char* without) {
-        if (!volume.texture()) {
+        if (!is_active(volume)) {
             passes.skip(name, without);
             return TextureRef();
         }
@@ -132,7 +139,8 @@ void LightVolumes::add_passes(PassList& passes, ShaderLibrary& shaders, const In
         return ref;
     };
     sun_ref_ = add("volumetrics/sun_volume", sun_, "no local medium dims a sun");
-    grid_suns_ref_ = add("volumetrics/grid_sun_volume", grid_suns_, "no density grid dims a sun");
+    grid_suns_ref_ =
+        add("volumetrics/grid_sun_volume", grid_suns_, "no density grid in view, nor the shadow of one");
     lamps_ref_ = add("volumetrics/lamp_volumes", lamps_, "no lamp in view reaches a local medium");
     if (lamps_.left_out() > 0)
         passes.skip(
@@ -140,15 +148,9 @@ void LightVolumes::add_passes(PassList& passes, ShaderLibrary& shaders, const In
             fmt::format("{} lamps more than lamp_volume_count: local media do not dim them", lamps_.left_out()));
 }
 
-void LightVolumes::release() {
-    release_volumes();
-    nothing_ = {};
-    no_lamps_ = {};
-}
-
-void LightVolumes::release_volumes() {
+void LightVolumes::release_volumes(const FrameMedia& media) {
     sun_.release();
-    grid_suns_.release();
+    if (media.grids.empty()) grid_suns_.release();
     lamps_.release();
     media_ = {};
     uploaded_.clear();

@@ -71,9 +71,10 @@ class SunVolume {
 /// takes its part along.
 class GridSunVolumes {
   public:
-    /// Throws Error for more than MAX_GRIDS.
+    /// Throws Error for more than MAX_GRIDS. Where no grid matters in this frame it keeps what it has.
     void prepare(const Inputs& inputs, const Settings& settings, FrameMedia& media);
     void release() { *this = {}; }
+    [[nodiscard]] bool active() const { return active_; }  ///< in this frame
     [[nodiscard]] const gl::Texture& texture() const { return texture_; }
     [[nodiscard]] bool stale() const;
     void fill(ShaderLibrary& shaders, bool count_work, const DimmingMedia& media);
@@ -91,6 +92,7 @@ class GridSunVolumes {
     std::vector<Part> parts_;
     std::vector<LightRays> rays_;
     std::vector<bool> fresh_;  ///< of each part
+    bool active_ = false;
 };
 
 /// The volumes of lamps, tiles of one atlas: directions, all or those towards the local media in range, with a
@@ -132,12 +134,12 @@ class LightVolumes {
     void prepare(const Inputs& inputs, const Settings& settings, FrameMedia& media);
     /// Adds the passes for what changed; says why for the others.
     void add_passes(PassList& passes, ShaderLibrary& shaders, const Inputs& inputs, const GridAtlas& grids);
-    void release();
+    void release() { *this = {}; }
 
     /// Whether any light is dimmed by local media.
-    [[nodiscard]] bool any() const { return sun_.texture() || grid_suns_.texture() || lamps_.texture(); }
+    [[nodiscard]] bool any() const { return sun_.texture() || grid_suns_.active() || lamps_.texture(); }
     /// Value of the axis LIGHT_VOLUMES.
-    [[nodiscard]] int axis() const { return grid_suns_.texture() ? 2 : any() ? 1 : 0; }
+    [[nodiscard]] int axis() const { return grid_suns_.active() ? 2 : any() ? 1 : 0; }
     [[nodiscard]] TextureRef sun() const { return sun_ref_; }
     [[nodiscard]] TextureRef grid_suns() const { return grid_suns_ref_; }
     [[nodiscard]] TextureRef lamps() const { return lamps_ref_; }
@@ -147,7 +149,7 @@ class LightVolumes {
     [[nodiscard]] std::size_t bytes() const;
 
   private:
-    void release_volumes();
+    void release_volumes(const FrameMedia& media);
 
     SunVolume sun_;
     GridSunVolumes grid_suns_;

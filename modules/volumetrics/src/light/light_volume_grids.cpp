@@ -33,7 +33,9 @@ void GridSunVolumes::prepare(const Inputs& inputs, const Settings& settings, Fra
     const auto first = std::ranges::find_if(
         media.attenuating, [](const AttenuatingMedium& m) { return m.medium.shape == Shape::grid; });
     const std::span<const AttenuatingMedium> grids(first, media.attenuating.end());
-    if (!inputs.has_sun || grids.empty()) return release();
+    active_ = inputs.has_sun && !grids.empty();
+    if (!active_ && media.grids.empty()) return release();
+    if (!active_) return;
     if (grids.size() > MAX_GRIDS)
         throw Error(fmt::format("volumetrics: {} density grids that dim light, at most {} expected", grids.size(),
                                 MAX_GRIDS));

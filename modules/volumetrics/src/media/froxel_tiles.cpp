@@ -31,6 +31,23 @@ bool ViewBounds::in_view() const {
            glm::all(glm::greaterThan(upper, glm::vec2(0)));
 }
 
+bool may_matter(const LocalMedium& medium, const Inputs& inputs) {
+    const auto reaches = [&](const Lamp& lamp) {
+        return lamp.range <= 0 || distances(medium, lamp.position).x < lamp.range;
+    };
+    if (inputs.has_lamps && std::ranges::any_of(inputs.lamps, reaches)) return true;
+    const glm::mat4 rows = glm::transpose(inputs.projection * inputs.view);
+    const std::array<glm::vec3, 8> box = corners(medium);
+    // Beyond one of the planes of the view, and the sun's light does not bring its shadow back.
+    for (const glm::vec4 plane :
+         {rows[3] + rows[0], rows[3] - rows[0], rows[3] + rows[1], rows[3] - rows[1], rows[3] - rows[2]}) {
+        const auto beyond = [&](glm::vec3 corner) { return glm::dot(plane, glm::vec4(corner, 1)) < 0; };
+        const bool recedes = !inputs.has_sun || glm::dot(glm::vec3(plane), inputs.sun_direction) <= 0;
+        if (recedes && std::ranges::all_of(box, beyond)) return false;
+    }
+    return true;
+}
+
 IndexBox froxel_bounds(const ViewBounds& bounds, const FroxelGrid& grid) {
     if (!bounds.in_view() || bounds.nearest >= grid.farthest) return {};
     const auto w = [&](float depth) { return grid.w(std::max(depth, 0.0F)); };

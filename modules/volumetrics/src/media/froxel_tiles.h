@@ -12,6 +12,8 @@ namespace tyndall::volumetrics {
 [[nodiscard]] ViewBounds view_bounds(const LocalMedium& medium, const Inputs& inputs);
 
 /// The froxels that a medium may touch, never too few; empty where they do not reach it.
+/// Something in view may lie in the medium or behind it, seen from a light.
+[[nodiscard]] bool may_matter(const LocalMedium& medium, const Inputs& inputs);
 [[nodiscard]] IndexBox froxel_bounds(const ViewBounds& bounds, const FroxelGrid& grid);
 
 /// For each tile of SCREEN_MEDIA_X × SCREEN_MEDIA_Y of the screen, from the lower left on and along x first, a bit

@@ -115,8 +115,9 @@ void gather_grids(const Inputs& inputs, FrameMedia& media) {
         if (medium.shape != Shape::grid) continue;
         if (!medium.grid)
             throw Error("volumetrics: a medium of shape grid without a grid; set_grid() gives it one");
-        if (!does_nothing(medium) && std::ranges::find(media.grids, medium.grid) == media.grids.end())
-            media.grids.push_back(medium.grid);
+        if (does_nothing(medium) || is_empty(medium)) continue;
+        if (std::ranges::find(media.grids, medium.grid) == media.grids.end()) media.grids.push_back(medium.grid);
+        media.uses_grids |= may_matter(medium, inputs);
     }
 }
 
@@ -125,7 +126,7 @@ void gather_grids(const Inputs& inputs, FrameMedia& media) {
 void add_local(const Inputs& inputs, bool unseen, FrameMedia& media) {
     bool seen = media.has_global;
     for (const LocalMedium& medium : inputs.local) {
-        if (does_nothing(medium)) continue;
+        if (does_nothing(medium) || (medium.grid && !media.uses_grids)) continue;
         const bool empty = is_empty(medium);
         const ViewBounds bounds = empty ? ViewBounds() : view_bounds(medium, inputs);
         seen |= bounds.in_view();
@@ -141,6 +142,7 @@ void add_local(const Inputs& inputs, bool unseen, FrameMedia& media) {
 void add_attenuating(const Inputs& inputs, FrameMedia& media) {
     for (const LocalMedium& medium : inputs.local) {
         if (is_zero(medium.sigma_s + medium.sigma_a) || is_empty(medium)) continue;
+        if (medium.grid && !media.uses_grids) continue;
         AttenuatingMedium added{medium, pack_local(medium, media.grids)};
         added.packed.sigma_s_g.w = 0;
         added.packed.emission_noise = {0, 0, 0, added.packed.emission_noise.w};

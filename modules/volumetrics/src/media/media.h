@@ -43,9 +43,10 @@ struct FrameMedia {
     bool has_global = false;
     bool local_emission = false;
     bool local_noise = false;
-    Grids grids;             ///< of all inputs, in view or not
-    bool rayleigh = false;   ///< some medium scatters as air does
-    bool chromatic = false;  ///< some medium's extinction is coloured, or is taken so: always where `rayleigh`
+    Grids grids;              ///< of all inputs
+    bool uses_grids = false;  ///< one of them may be seen, or its shadow; else they are left out
+    bool rayleigh = false;    ///< some medium scatters as air does
+    bool chromatic = false;   ///< some medium's extinction is coloured, or is taken so: always where `rayleigh`
 
     [[nodiscard]] bool empty() const { return !has_global && local.empty(); }
 };
