@@ -12,6 +12,8 @@ namespace tyndall::reference {
 namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
+constexpr double slowest = 1e-290;                           ///< whose inverse, times a coordinate, is finite
+constexpr int farthest = 1 << 30;                            ///< coordinate of a voxel
 constexpr std::int64_t most_blocks = std::int64_t{1} << 28;  ///< of a table: 1 GiB
 
 template <int stride>
@@ -32,15 +34,18 @@ int first_of(dvec3 t) {
     return t.y <= t.z ? 1 : 2;
 }
 
-/// Where a ray crosses the planes of whole coordinates.
-struct Planes {
-    dvec3 origin, inverse;
+}  // namespace
+
+/// A ray, and where it crosses the planes of whole coordinates.
+struct DensityField::Planes {
+    dvec3 origin, direction, inverse;
     glm::bvec3 moves, rises;
     glm::ivec3 step;
     Planes(dvec3 o, dvec3 d)
         : origin(o),
+          direction(d),
           inverse(1.0 / d),
-          moves(d.x != 0, d.y != 0, d.z != 0),
+          moves(glm::greaterThan(glm::abs(d), dvec3(slowest))),
           rises(d.x > 0, d.y > 0, d.z > 0),
           step(rises.x ? 1 : -1, rises.y ? 1 : -1, rises.z ? 1 : -1) {}
     [[nodiscard]] double crossing(int axis, int coordinate) const {
@@ -50,9 +55,8 @@ struct Planes {
     [[nodiscard]] double exit(int axis, int lowest, int edge) const {
         return crossing(axis, lowest + (rises[axis] ? edge : 0));
     }
+    [[nodiscard]] glm::ivec3 cell_at(double t) const { return glm::ivec3(glm::floor(origin + t * direction)); }
 };
-
-}  // namespace
 
 DensityField::Table::Table(glm::ivec3 lower_, glm::ivec3 upper) : lower(lower_) {
     const glm::i64vec3 wide = glm::i64vec3(upper) - glm::i64vec3(lower) + std::int64_t{1};
@@ -83,6 +87,9 @@ DensityField::DensityField(const DensityGrid& grid, bool nearest)
     upper_ = dvec3(grid.upper) + reach;
     glm::ivec3 first(std::numeric_limits<int>::max()), last(std::numeric_limits<int>::min());
     for (const glm::ivec3 brick : grid.bricks) {
+        if (glm::any(glm::greaterThan(glm::abs(glm::dvec3(brick)), dvec3(farthest))))
+            throw Error(fmt::format("reference: voxel at {} {} {}, at most {} expected", brick.x, brick.y, brick.z,
+                                    farthest));
         first = glm::min(first, brick / side);
         last = glm::max(last, brick / side);
     }
@@ -101,43 +108,30 @@ DensityField::DensityField(const DensityGrid& grid, bool nearest)
 void DensityField::add_block(glm::ivec3 block, const DensityGrid& grid, const Table& bricks) {
     std::int32_t& number = table_.numbers[table_.index(block)];
     if (number >= 0) return;
-    std::vector<float> values(static_cast<std::size_t>(stride_ * stride_ * stride_), 0.0f);
-    const auto at = [&](int x, int y, int z) -> float& {
-        return values[static_cast<std::size_t>(x + stride_ * (y + stride_ * z))];
+    Block made;
+    made.values.resize(static_cast<std::size_t>(stride_ * stride_ * stride_));
+    bool any = false;
+    const auto fill = [&](glm::ivec3 p) {
+        const std::int32_t brick = bricks.find(block + p / side);
+        if (brick < 0) return;
+        const glm::ivec3 q = p % side;
+        const float value = grid.values[static_cast<std::size_t>(brick) * DensityGrid::brick_size +
+                                        static_cast<std::size_t>(q.x + side * (q.y + side * q.z))];
+        if (value == 0) return;
+        made.values[static_cast<std::size_t>(p.x + stride_ * (p.y + stride_ * p.z))] = value;
+        any = true;
+        const glm::ivec3 low = glm::max(p - (stride_ - side), 0), high = glm::min(p, side - 1);
+        for (int z = low.z; z <= high.z; ++z)
+            for (int y = low.y; y <= high.y; ++y)
+                for (int x = low.x; x <= high.x; ++x)
+                    made.occupied[static_cast<std::size_t>(z)] |= std::uint64_t{1} << (side * y + x);
     };
     for (int z = 0; z < stride_; ++z)
         for (int y = 0; y < stride_; ++y)
-            for (int x = 0; x < stride_; ++x) {
-                const std::int32_t brick = bricks.find(block + glm::ivec3(x / side, y / side, z / side));
-                if (brick < 0) continue;
-                const int within = x % side + side * (y % side + side * (z % side));
-                at(x, y, z) = grid.values[static_cast<std::size_t>(brick) * DensityGrid::brick_size +
-                                          static_cast<std::size_t>(within)];
-            }
-    Occupied occupied{};
-    bool any = false;
-    const int reach = stride_ - side;
-    for (int z = 0; z < stride_; ++z)
-        for (int y = 0; y < stride_; ++y)
-            for (int x = 0; x < stride_; ++x) {
-                if (at(x, y, z) == 0) continue;
-                for (int k = std::max(z - reach, 0); k <= std::min(z, side - 1); ++k)
-                    for (int j = std::max(y - reach, 0); j <= std::min(y, side - 1); ++j)
-                        for (int i = std::max(x - reach, 0); i <= std::min(x, side - 1); ++i) {
-                            occupied[static_cast<std::size_t>(k)] |= std::uint64_t{1} << (side * j + i);
-                            any = true;
-                        }
-            }
+            for (int x = 0; x < stride_; ++x) fill({x, y, z});
     if (!any) return;
-    number = static_cast<std::int32_t>(occupied_.size());
-    occupied_.push_back(occupied);
-    values_.insert(values_.end(), values.begin(), values.end());
-}
-
-const float* DensityField::corner(std::int32_t block, glm::ivec3 cell) const {
-    return values_.data() +
-           static_cast<std::size_t>(block) * static_cast<std::size_t>(stride_ * stride_ * stride_) +
-           static_cast<std::size_t>(cell.x + stride_ * (cell.y + stride_ * cell.z));
+    number = static_cast<std::int32_t>(blocks_.size());
+    blocks_.push_back(std::move(made));
 }
 
 double DensityField::at(dvec3 point) const {
@@ -148,7 +142,7 @@ double DensityField::at(dvec3 point) const {
     static_assert(side == 1 << 3);
     const std::int32_t number = table_.find(block);
     if (number < 0) return 0;
-    const float* v = corner(number, cell - block * side);
+    const float* v = corner(blocks_[static_cast<std::size_t>(number)], cell - block * side);
     return nearest_ ? *v : between_centres(v, p - dvec3(cell));
 }
 
@@ -168,15 +162,14 @@ void DensityField::walk(dvec3 origin, dvec3 direction, Interval part, Visit visi
         part = {std::max(part.begin, std::min(a, b)), std::min(part.end, std::max(a, b))};
     }
     if (!(part.begin < part.end)) return;
-    const glm::ivec3 inside = glm::ivec3(glm::floor((origin + part.begin * direction) / double(side)));
-    glm::ivec3 block = glm::clamp(inside, table_.lower, table_.lower + table_.size - 1);
+    glm::ivec3 block = glm::clamp(planes.cell_at(part.begin) >> 3, table_.lower, table_.lower + table_.size - 1);
     dvec3 exits;
     for (int i = 0; i < 3; ++i) exits[i] = planes.exit(i, block[i] * side, side);
     for (double t = part.begin;;) {
         const int axis = first_of(exits);
         const double out = std::min(exits[axis], part.end);
         if (t < out) {
-            if (table_.numbers[table_.index(block)] >= 0) walk_block(origin, direction, {t, out}, block, visit);
+            if (table_.numbers[table_.index(block)] >= 0) walk_block(planes, {t, out}, block, visit);
             t = out;
         }
         if (!(exits[axis] < part.end)) return;
@@ -187,21 +180,17 @@ void DensityField::walk(dvec3 origin, dvec3 direction, Interval part, Visit visi
 }
 
 template <class Visit>
-void DensityField::walk_block(dvec3 origin, dvec3 direction, Interval part, glm::ivec3 block, Visit& visit) const {
-    const Planes planes(origin, direction);
-    const std::int32_t number = table_.numbers[table_.index(block)];
-    const Occupied& occupied = occupied_[static_cast<std::size_t>(number)];
-    const glm::ivec3 lowest = block * side;
-    const glm::ivec3 inside = glm::ivec3(glm::floor(origin + part.begin * direction)) - lowest;
-    glm::ivec3 cell = glm::clamp(inside, 0, side - 1);
+void DensityField::walk_block(const Planes& planes, Interval part, glm::ivec3 at, Visit& visit) const {
+    const Block& block = blocks_[static_cast<std::size_t>(table_.numbers[table_.index(at)])];
+    const glm::ivec3 lowest = at * side;
+    glm::ivec3 cell = glm::clamp(planes.cell_at(part.begin) - lowest, 0, side - 1);
     dvec3 exits;
     for (int i = 0; i < 3; ++i) exits[i] = planes.exit(i, lowest[i] + cell[i], 1);
     for (double t = part.begin;;) {
         const int axis = first_of(exits);
         const double out = std::min(exits[axis], part.end);
         if (t < out) {
-            if ((occupied[static_cast<std::size_t>(cell.z)] >> (side * cell.y + cell.x) & 1) != 0)
-                visit(corner(number, cell), origin - dvec3(lowest + cell), t, out);
+            if (block.has(cell)) visit(corner(block, cell), planes.origin - dvec3(lowest + cell), t, out);
             t = out;
         }
         if (!(exits[axis] < part.end)) return;

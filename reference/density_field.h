@@ -44,23 +44,31 @@ class DensityField {
         [[nodiscard]] std::size_t index(glm::ivec3 block) const;
         [[nodiscard]] std::int32_t find(glm::ivec3 block) const;
     };
-    /// Cells that are not empty: bit 8 y + x of word z.
-    using Occupied = std::array<std::uint64_t, side>;
+    struct Block {
+        std::array<std::uint64_t, side> occupied{};  ///< cells that are not empty: bit 8 y + x of number z
+        std::vector<float> values;
+        [[nodiscard]] bool has(glm::ivec3 cell) const {
+            return (occupied[static_cast<std::size_t>(cell.z)] >> (side * cell.y + cell.x) & 1) != 0;
+        }
+    };
+    struct Planes;
 
     void add_block(glm::ivec3 block, const DensityGrid& grid, const Table& bricks);
-    [[nodiscard]] const float* corner(std::int32_t block, glm::ivec3 cell) const;
+    /// The voxel at the lowest corner of a cell.
+    [[nodiscard]] const float* corner(const Block& block, glm::ivec3 cell) const {
+        return block.values.data() + (cell.x + stride_ * (cell.y + stride_ * cell.z));
+    }
     template <class Visit>
     void walk(dvec3 origin, dvec3 direction, Interval part, Visit visit) const;
     template <class Visit>
-    void walk_block(dvec3 origin, dvec3 direction, Interval part, glm::ivec3 block, Visit& visit) const;
+    void walk_block(const Planes& planes, Interval part, glm::ivec3 at, Visit& visit) const;
 
     bool nearest_;
     int stride_;  ///< voxels of a block along an edge: those of its cells, and the next ones where it is trilinear
     dvec3 offset_;  ///< from voxel coordinates to cells': a cell is [i, i + 1)^3 of those
     dvec3 lower_{0}, upper_{0};
     Table table_;
-    std::vector<Occupied> occupied_;
-    std::vector<float> values_;
+    std::vector<Block> blocks_;
 };
 
 }  // namespace tyndall::reference

@@ -287,6 +287,7 @@ TEST(ReferenceDensityField, VoxelsTooFarApartAreAnError) {
     Voxels voxels = one_voxel(glm::ivec3(-1000000000));
     voxels.set(glm::ivec3(1000000000), 1);
     EXPECT_THROW(field(voxels, false), Error);
+    EXPECT_THROW(field(one_voxel(glm::ivec3(0, -2000000000, 0)), true), Error);
 }
 
 }  // namespace
