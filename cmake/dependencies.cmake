@@ -10,6 +10,7 @@ find_package(nlohmann_json REQUIRED)
 find_package(TinyGLTF REQUIRED)
 find_package(OpenImageIO REQUIRED)
 find_package(PNG REQUIRED)
+find_package(ZLIB REQUIRED)
 find_package(Bullet REQUIRED)
 find_package(embree 3 REQUIRED)
 find_package(Threads REQUIRED)
@@ -24,6 +25,18 @@ set_target_properties(OpenImageIO::OpenImageIO PROPERTIES INTERFACE_INCLUDE_DIRE
 add_library(bullet INTERFACE)
 target_include_directories(bullet SYSTEM INTERFACE ${BULLET_INCLUDE_DIRS})
 target_link_libraries(bullet INTERFACE ${BULLET_LIBRARIES})
+
+# OpenVDB's own find module wants a component of Boost that its package does not need. NanoVDB lies beside it.
+find_path(OPENVDB_INCLUDE_DIR openvdb/openvdb.h REQUIRED)
+find_path(NANOVDB_INCLUDE_DIR nanovdb/NanoVDB.h REQUIRED)
+find_path(BLOSC_INCLUDE_DIR blosc.h REQUIRED)
+find_library(OPENVDB_LIBRARY openvdb REQUIRED)
+find_library(BLOSC_LIBRARY blosc REQUIRED)
+pkg_check_modules(IMATH REQUIRED IMPORTED_TARGET Imath)
+find_package(TBB REQUIRED COMPONENTS tbb)
+add_library(openvdb INTERFACE)
+target_include_directories(openvdb SYSTEM INTERFACE ${OPENVDB_INCLUDE_DIR} ${NANOVDB_INCLUDE_DIR} ${BLOSC_INCLUDE_DIR})
+target_link_libraries(openvdb INTERFACE ${OPENVDB_LIBRARY} ${BLOSC_LIBRARY} TBB::tbb PkgConfig::IMATH)
 
 # The glad loader is generated at build time: the only loader that works in GLFW, EGL and OSMesa contexts alike.
 find_program(GLAD_EXE NAMES glad PATHS /usr/bin NO_DEFAULT_PATH REQUIRED)

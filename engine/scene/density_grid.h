@@ -11,7 +11,7 @@ namespace tyndall {
 /// Sparse voxels of a density, as of a .vdb, .nvdb or volume texture file. A voxel's centre lies at whole
 /// coordinates; where there is no brick the density is 0, and so are a file's inactive voxels, whatever it stores.
 struct DensityGrid {
-    static constexpr int side = 8;                      ///< voxels of a brick
+    static constexpr int side = 8;  ///< voxels of a brick
     static constexpr int brick_size = side * side * side;
 
     std::vector<glm::ivec3> bricks;  ///< lowest voxel of each: multiples of `side`; no two alike; some voxel > 0

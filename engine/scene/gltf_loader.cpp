@@ -38,7 +38,7 @@ void load_scene_extras(const GltfFile& file, Scene& scene) {
             file.fail("extras.media: the text is not valid JSON: {}", e.what());
         }
     }
-    scene.media = parse_media(media, scene.path.string() + ": extras");
+    scene.media = parse_media(media, scene.path.string() + ": extras", scene.path.parent_path());
 }
 
 /// Lamps without a range end where a white surface that faces them would be a quarter of a step of 8 bits brighter

@@ -1,76 +1,24 @@
 #include "engine/scene/medium.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "engine/core/error.h"
 #include "engine/core/files.h"
+#include "engine/scene/json_field.h"
 
 namespace tyndall {
 namespace {
 
 using Json = nlohmann::json;
 
-/// A JSON value and where it is, for messages.
-struct Field {
-    const Json& json;
-    std::string where;
-
-    [[noreturn]] void fail(std::string_view expected) const {
-        std::string text = json.dump(-1, ' ', true, Json::error_handler_t::replace);
-        if (text.size() > 60) text = text.substr(0, 57) + "...";
-        throw Error(fmt::format("{}: {} given, {} expected", where, text, expected));
-    }
-    [[nodiscard]] bool has(const char* key) const { return json.contains(key); }
-    [[nodiscard]] Field at(const char* key) const {
-        if (!json.contains(key)) throw Error(fmt::format("{}: \"{}\" is missing", where, key));
-        return {json.at(key), where + "." + key};
-    }
-    void require_object(const std::vector<std::string_view>& keys) const {
-        if (!json.is_object()) fail("an object");
-        for (const auto& item : json.items()) {
-            if (std::find(keys.begin(), keys.end(), item.key()) == keys.end())
-                throw Error(fmt::format("{}: unknown key {}; {} expected", where, Json(item.key()).dump(),
-                                        fmt::join(keys, ", ")));
-        }
-    }
-    [[nodiscard]] float number(std::string_view expected, auto valid) const {
-        const float value = json.is_number() ? json.get<float>() : NAN;
-        if (!std::isfinite(value) || !valid(value)) fail(expected);
-        return value;
-    }
-    // Metres: as far as nodes may be, and not so small that squares and inverses leave the range of numbers.
-    [[nodiscard]] float place() const {
-        return number("a number from -1e9 to 1e9", [](float v) { return std::abs(v) <= 1e9f; });
-    }
-    [[nodiscard]] float size() const {
-        return number("a number from 1e-6 to 1e9", [](float v) { return v >= 1e-6f && v <= 1e9f; });
-    }
-    [[nodiscard]] float width() const {
-        return number("a number from 0 to 1e9", [](float v) { return v >= 0 && v <= 1e9f; });
-    }
-    [[nodiscard]] float share() const {
-        return number("a number from 0 to 1", [](float v) { return v >= 0 && v <= 1; });
-    }
-    // Far beyond any matter, and such that products with densities, lengths and light stay finite.
-    [[nodiscard]] float coefficient() const {
-        return number("a number from 0 to 1e6", [](float v) { return v >= 0 && v <= 1e6f; });
-    }
-    [[nodiscard]] float radiance() const {
-        return number("a number from 0 to 1e12", [](float v) { return v >= 0 && v <= 1e12f; });
-    }
-    template <int n>
-    [[nodiscard]] glm::vec<n, float> vector(float (Field::*element)() const) const {
-        if (!json.is_array() || json.size() != n) fail(fmt::format("a list of {} numbers", n));
-        glm::vec<n, float> v;
-        for (int i = 0; i < n; ++i)
-            v[i] = (Field{json[static_cast<std::size_t>(i)], fmt::format("{}[{}]", where, i)}.*element)();
-        return v;
-    }
-};
+using Field = JsonField;
 
 /// What a media file says of a shape.
 struct ShapeRow {
@@ -90,15 +38,25 @@ const ShapeRow shapes[] = {
      {},
      "radii",
      [](const Field& field) { return field.vector<3>(&Field::size); }},
-    {"box", Medium::Shape::box, {}, "size", [](const Field& field) {
-         return field.vector<3>(&Field::size) * 0.5f;
-     }}};
+    {"box",
+     Medium::Shape::box,
+     {},
+     "size",
+     [](const Field& field) { return field.vector<3>(&Field::size) * 0.5f; }},
+    {"grid",
+     Medium::Shape::grid,
+     {"file", "grid", "translation", "rotation", "scale", "density", "sampling", "wind"}}};
+
+/// What a list of media has read, by file and name.
+struct GridFiles {
+    std::filesystem::path folder;
+    std::map<std::pair<std::filesystem::path, std::string>, std::shared_ptr<const DensityGrid>> read = {};
+};
 
 const ShapeRow& parse_shape(const Field& medium) {
     const Field field = medium.at("shape");
     for (const ShapeRow& row : shapes)
         if (field.json == row.name) return row;
-    if (field.json == "grid") throw Error(medium.where + ": grid media are not supported by this version");
     std::vector<std::string_view> names;
     for (const ShapeRow& row : shapes) names.push_back(row.name);
     field.fail(fmt::format("one of {}", fmt::join(names, ", ")));
@@ -160,12 +118,7 @@ void parse_noise(const Field& field, Medium& medium) {
 void parse_bounded_shape(const Field& field, const ShapeRow& shape, Medium& medium) {
     medium.center = field.at("center").vector<3>(&Field::place);
     medium.half_extent = shape.half_extent(field.at(shape.extent));
-    if (field.has("rotation")) {
-        const Field rotation = field.at("rotation");
-        const glm::vec4 q = rotation.vector<4>(&Field::place);
-        if (std::abs(glm::length(q) - 1) > 0.01f) rotation.fail("a unit quaternion [x, y, z, w]");
-        medium.rotation = glm::normalize(glm::quat(q.w, q.x, q.y, q.z));
-    }
+    if (field.has("rotation")) medium.rotation = field.at("rotation").rotation();
     if (field.has("softness")) medium.softness = field.at("softness").width();
     if (field.has("noise")) parse_noise(field.at("noise"), medium);
     if (field.has("height")) {
@@ -174,7 +127,64 @@ void parse_bounded_shape(const Field& field, const ShapeRow& shape, Medium& medi
     }
 }
 
-Medium parse_medium(const Field& field) {
+std::filesystem::path resolve_file(const Field& field, const std::filesystem::path& folder) {
+    const std::string name = field.text();
+    if (std::ranges::count(std::filesystem::path(name), "..") > 0) field.fail("a path without \"..\"");
+    try {
+        return resolve_inside(folder.empty() ? "." : folder, name);
+    } catch (const Error& e) {
+        throw Error(fmt::format("{}: {}", field.where, e.what()));
+    }
+}
+
+std::shared_ptr<const DensityGrid> read_grid(const Field& field, GridFiles& files) {
+    const Field file = field.at("file");
+    const std::string name = field.has("grid") ? field.at("grid").text() : "density";
+    const std::filesystem::path path = resolve_file(file, files.folder);
+    auto& grid = files.read[{path, name}];
+    if (grid) return grid;
+    try {
+        grid = load_density_grid(path, name);
+    } catch (const Error& e) {
+        throw Error(fmt::format("{}: {}", file.where, e.what()));
+    }
+    return grid;
+}
+
+/// What scale and density make of the grid's own numbers stays within the ranges of all media.
+void require_grid_in_range(const Field& field, const Medium& medium) {
+    const glm::dmat4 to_world = index_to_world(medium);
+    for (int axis = 0; axis < 3; ++axis) {
+        const double edge = glm::length(glm::dvec3(to_world[axis]));
+        if (!(edge >= 1e-6 && edge <= 1e9))
+            throw Error(fmt::format("{}.scale: voxels of {:g} m, 1e-6 to 1e9 expected", field.where, edge));
+    }
+    if (medium.grid->empty()) return;
+    const Aabb box = world_bounds(medium);
+    const glm::vec3 most = glm::max(glm::abs(box.min), glm::abs(box.max));
+    const float reach = std::max({most.x, most.y, most.z});
+    if (!(reach <= 1e9F))
+        throw Error(
+            fmt::format("{}: the grid reaches {:g} m from the origin, at most 1e9 expected", field.where, reach));
+    const double greatest = double{medium.density} * medium.grid->greatest;
+    if (!(greatest <= 1e6))
+        throw Error(fmt::format("{}.density: {:g} with the grid's greatest value, at most 1e6 expected",
+                                field.where, greatest));
+}
+
+void parse_grid(const Field& field, GridFiles& files, Medium& medium) {
+    if (field.has("translation")) medium.center = field.at("translation").vector<3>(&Field::place);
+    medium.center_at_start = medium.center;
+    if (field.has("rotation")) medium.rotation = field.at("rotation").rotation();
+    if (field.has("scale")) medium.scale = field.at("scale").size();
+    if (field.has("density")) medium.density = field.at("density").coefficient();
+    if (field.has("sampling")) medium.nearest = field.at("sampling").choice({"linear", "nearest"}) == 1;
+    if (field.has("wind")) medium.wind = field.at("wind").vector<3>(&Field::velocity);
+    medium.grid = read_grid(field, files);
+    require_grid_in_range(field, medium);
+}
+
+Medium parse_medium(const Field& field, GridFiles& files) {
     if (!field.json.is_object()) field.fail("an object");
     const ShapeRow& shape = parse_shape(field);
     Medium medium;
@@ -189,7 +199,10 @@ Medium parse_medium(const Field& field) {
             field.at("anisotropy").number("a number between -1 and 1", [](float v) { return v > -1 && v < 1; });
     if (field.has("phase")) parse_phase(field.at("phase"), medium);
     if (medium.shape == Medium::Shape::height) parse_height_profile(field, medium);
-    if (is_bounded(medium)) parse_bounded_shape(field, shape, medium);
+    if (medium.shape == Medium::Shape::grid)
+        parse_grid(field, files, medium);
+    else if (is_bounded(medium))
+        parse_bounded_shape(field, shape, medium);
     return medium;
 }
 
@@ -221,7 +234,7 @@ Aabb world_bounds(const Medium& bounded) {
     return transformed({-bounded.half_extent, bounded.half_extent}, to_world);
 }
 
-std::vector<Medium> parse_media(const Json& json, const std::string& where) {
+std::vector<Medium> parse_media(const Json& json, const std::string& where, const std::filesystem::path& folder) {
     const Field root{json, where};
     if (json.is_object()) {
         if (json.contains("shape"))
@@ -231,14 +244,15 @@ std::vector<Medium> parse_media(const Json& json, const std::string& where) {
     }
     const Json& list = json.is_object() ? json.at("media") : json;
     if (!list.is_array()) Field{list, where + ": media"}.fail("a list");
+    GridFiles files{folder};
     std::vector<Medium> media;
     for (std::size_t i = 0; i < list.size(); ++i)
-        media.push_back(parse_medium({list[i], fmt::format("{}: media[{}]", where, i)}));
+        media.push_back(parse_medium({list[i], fmt::format("{}: media[{}]", where, i)}, files));
     return media;
 }
 
 std::vector<Medium> load_media(const std::filesystem::path& path) {
-    return parse_media(read_json(path), path.string());
+    return parse_media(read_json(path), path.string(), path.parent_path());
 }
 
 }  // namespace tyndall

@@ -55,9 +55,10 @@ struct Medium {
 /// media[2].radius: …"). `albedo` and `extinction` may stand for scattering and absorption. Unknown keys, wrong
 /// types, non-finite numbers, coefficients outside 0 to 1e6 1/m, |g| >= 1, places beyond 1e9 m, sizes outside 1e-6
 /// to 1e9 m are errors; so is a "phase" other than "mie" (particles, the phase function of the settings) and
-/// "rayleigh" (air: no anisotropy, only in media that fill space). A `grid` is an error that says grid media are
-/// not supported by this version.
-[[nodiscard]] std::vector<Medium> parse_media(const nlohmann::json& json, const std::string& where);
+/// "rayleigh" (air: no anisotropy, only in media that fill space). Files of grids are relative to `folder` and lie
+/// inside it; one that several media name is read once.
+[[nodiscard]] std::vector<Medium> parse_media(const nlohmann::json& json, const std::string& where,
+                                              const std::filesystem::path& folder);
 [[nodiscard]] std::vector<Medium> load_media(const std::filesystem::path& path);
 
 }  // namespace tyndall

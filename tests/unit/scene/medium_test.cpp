@@ -24,7 +24,7 @@ json box() {
     return {{"shape", "box"}, {"center", {1, 2, 3}}, {"size", {4, 5, 6}}, {"scattering", {0.1, 0.2, 0.3}}};
 }
 Medium parse_one(const json& medium) {
-    return parse_media(json::array({medium}), "fog.json").at(0);
+    return parse_media(json::array({medium}), "fog.json", ".").at(0);
 }
 
 TEST(Medium, EveryFieldOfEveryShape) {
@@ -35,7 +35,7 @@ TEST(Medium, EveryFieldOfEveryShape) {
          "noise":{"scale":1.5,"amount":0.6,"seed":7}, "height":{"base":0.5,"falloff":1.2}},
         {"shape":"ellipsoid", "center":[1,2,3], "radii":[1,2,4], "rotation":[0,0.6,0,0.8], "scattering":[1,1,1]},
         {"shape":"box", "center":[0,1,0], "size":[4,2,3], "scattering":[1,1,1]}]})");
-    const std::vector<Medium> media = parse_media(list, "fog.json");
+    const std::vector<Medium> media = parse_media(list, "fog.json", ".");
     ASSERT_EQ(media.size(), 5u);
     EXPECT_EQ(media[0].shape, Medium::Shape::global);
     EXPECT_EQ(media[0].sigma_s, glm::vec3(0.05f, 0.06f, 0.07f));
@@ -93,9 +93,9 @@ TEST(Medium, AirHasRayleighsPhase) {
 }
 
 TEST(Medium, BareListAndObjectAreTheSame) {
-    EXPECT_EQ(parse_media(json::array({ball(), box()}), "a").size(), 2u);
-    EXPECT_EQ(parse_media({{"media", json::array({ball(), box()})}}, "a").size(), 2u);
-    EXPECT_TRUE(parse_media(json::array(), "a").empty());
+    EXPECT_EQ(parse_media(json::array({ball(), box()}), "a", ".").size(), 2u);
+    EXPECT_EQ(parse_media({{"media", json::array({ball(), box()})}}, "a", ".").size(), 2u);
+    EXPECT_TRUE(parse_media(json::array(), "a", ".").empty());
 }
 
 TEST(Medium, EveryMistakeNamesFileIndexAndKey) {
@@ -163,13 +163,13 @@ TEST(Medium, EveryMistakeNamesFileIndexAndKey) {
         {with(ball(), "height", {{"base", 0}}), "\"falloff\" is missing"},
         {with(ball(), "height", {{"base", 0}, {"falloff", 0}}), ".height.falloff"},
         {{{"shape", "height"}, {"scattering", {1, 1, 1}}, {"base", 0}, {"falloff", -1}}, ".falloff"},
-        {{{"shape", "grid"}, {"file", "cloud.nvdb"}, {"scattering", {1, 1, 1}}}, "grid media are not supported"},
+        {{{"shape", "grid"}, {"scattering", {1, 1, 1}}}, "\"file\" is missing"},
         {json(3), "an object expected"},
     };
     for (const auto& [medium, fragment] : cases) {
         const json list = {{"media", json::array({ball(), medium})}};
         EXPECT_THAT(
-            [&] { (void)parse_media(list, "fog.json"); },
+            [&] { (void)parse_media(list, "fog.json", "."); },
             ThrowsMessage<Error>(AllOf(HasSubstr("fog.json: media[1]"), HasSubstr(fragment), Not(HasSubstr("\n")))))
             << medium;
     }
@@ -178,7 +178,7 @@ TEST(Medium, EveryMistakeNamesFileIndexAndKey) {
 TEST(Medium, TheListItselfIsChecked) {
     for (const json& root : {json(1), json("x"), json(nullptr), json{{"media", 1}}, json::object(),
                              json{{"media", json::array()}, {"medium", 1}}})
-        EXPECT_THAT([&] { (void)parse_media(root, "fog.json"); }, ThrowsMessage<Error>(HasSubstr("fog.json")))
+        EXPECT_THAT([&] { (void)parse_media(root, "fog.json", "."); }, ThrowsMessage<Error>(HasSubstr("fog.json")))
             << root;
 }
 
