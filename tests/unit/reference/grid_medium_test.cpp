@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -161,6 +162,22 @@ TEST(ReferenceGridMedium, ThePathIsTheBoxOfWhatIsThere) {
         EXPECT_FALSE(shape.path(dvec3(-20, 8, 18 + 2.01 * reach), dvec3(1, 0, 0)));
         EXPECT_TRUE(shape.path(dvec3(-20, 8 + 1.99 * reach, 15), dvec3(1, 0, 0)));
         EXPECT_EQ(shape.greatest_density(), 2);
+    }
+}
+
+TEST(ReferenceGridMedium, EveryFaceBetweenCellsIsAKnot) {
+    Voxels voxels;
+    voxels.fill(glm::ivec3(0), glm::ivec3(2), 1);
+    voxels.set({7, 1, 1}, 1);
+    for (const bool nearest : {false, true}) {
+        const Media media({medium_of(voxels.grid(), nearest)});
+        const MediaRay ray(media, dvec3(-10, 1, 1), dvec3(1, 0, 0), infinity, 1e-9);
+        const std::vector<double> faces = nearest ? std::vector<double>{-0.5, 0.5, 1.5, 2.5, 6.5, 7.5}
+                                                  : std::vector<double>{-1, 0, 1, 2, 3, 6, 7, 8};
+        for (const double x : faces)
+            EXPECT_TRUE(std::ranges::any_of(ray.knots(), [&](double t) { return std::abs(t - 10 - x) < 1e-9; }))
+                << nearest << " " << x;
+        EXPECT_EQ(media.breakpoints(dvec3(-10, 1, 1), dvec3(1, 0, 0), 0, infinity).size(), faces.size());
     }
 }
 
