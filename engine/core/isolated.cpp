@@ -32,7 +32,8 @@ double now() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-// --- in the child -------------------------------------------------------------------------------------------------
+// --- in the child
+// -------------------------------------------------------------------------------------------------
 
 void write_all(int pipe, const void* bytes, std::size_t size) {
     const char* next = static_cast<const char*>(bytes);
@@ -119,7 +120,8 @@ void become_child(const IsolationLimits& limits) {
     ::_exit(0);
 }
 
-// --- in the parent ------------------------------------------------------------------------------------------------
+// --- in the parent
+// ------------------------------------------------------------------------------------------------
 
 /// Printable, without line breaks, and short enough for a message.
 std::string one_line(std::string_view text) {
@@ -169,8 +171,7 @@ void IsolatedWork::fail_as_child_ended() {
     child_ = -1;
     if (WIFSIGNALED(status) && (WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGKILL))
         throw Error(fmt::format("reading it was ended after {:g} s of the processor", limits_.seconds));
-    if (WIFSIGNALED(status))
-        throw Error(fmt::format("damaged: its reader crashed (signal {})", WTERMSIG(status)));
+    if (WIFSIGNALED(status)) throw Error(fmt::format("damaged: its reader crashed (signal {})", WTERMSIG(status)));
     throw Error("damaged: its reader ended too early");
 }
 

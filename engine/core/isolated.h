@@ -8,8 +8,8 @@
 namespace tyndall {
 
 struct IsolationLimits {
-    double seconds = 10;                           ///< by the clock on the wall, and of the processor
-    std::size_t memory = std::size_t{1} << 30U;    ///< bytes beyond those that this process has
+    double seconds = 10;                         ///< by the clock on the wall, and of the processor
+    std::size_t memory = std::size_t{1} << 30U;  ///< bytes beyond those that this process has
 };
 
 /// Work for libraries that trust what they read: a forked child does it and sends its result through a pipe.

@@ -28,9 +28,8 @@ class Walk {
         using Root = nanovdb::RootData<Upper>;
         const Root& root = *at<Root>(root_at);
         for (std::uint32_t i = 0; i < root.mTableSize; ++i) {
-            const auto& tile =
-                *at<typename Root::Tile>(root_at + static_cast<std::int64_t>(
-                                                       sizeof(Root) + i * sizeof(typename Root::Tile)));
+            const auto& tile = *at<typename Root::Tile>(
+                root_at + static_cast<std::int64_t>(sizeof(Root) + i * sizeof(typename Root::Tile)));
             const nanovdb::Coord key = tile.origin();
             const glm::ivec3 lower(key[0], key[1], key[2]);
             if (tile.isChild())
@@ -68,8 +67,9 @@ class Walk {
     }
     void upper(std::int64_t offset, const glm::ivec3& lower_corner) {
         internal<Upper, 5>(offset, lower_corner, 128, [&](std::int64_t child, const glm::ivec3& corner) {
-            internal<Lower, 4>(child, corner, brick_side,
-                               [&](std::int64_t leaf_at, const glm::ivec3& leaf_corner) { leaf(leaf_at, leaf_corner); });
+            internal<Lower, 4>(child, corner, brick_side, [&](std::int64_t leaf_at, const glm::ivec3& leaf_corner) {
+                leaf(leaf_at, leaf_corner);
+            });
         });
     }
     void leaf(std::int64_t offset, const glm::ivec3& lower) {

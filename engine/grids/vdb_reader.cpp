@@ -36,8 +36,8 @@ void require_density(const openvdb::GridBase& grid, const std::string& name) {
         throw Unreadable(fmt::format("grid \"{}\" is of {} ({}), single-precision numbers expected", name,
                                      grid.valueType(), grid.type()));
     if (!grid.transform().isLinear())
-        throw Unreadable(fmt::format("grid \"{}\" has a {}, an affine transform expected", name,
-                                     grid.transform().mapType()));
+        throw Unreadable(
+            fmt::format("grid \"{}\" has a {}, an affine transform expected", name, grid.transform().mapType()));
 }
 
 glm::dmat4 index_to_grid(const openvdb::math::Transform& transform) {

@@ -14,7 +14,8 @@ static_assert(grids::brick_side == DensityGrid::side);
 
 void require_density(float value) {
     if (!std::isfinite(value) || value < 0 || value > DensityGridBuilder::greatest)
-        throw Error(fmt::format("a voxel is {}, values from 0 to {:g} expected", value, DensityGridBuilder::greatest));
+        throw Error(
+            fmt::format("a voxel is {}, values from 0 to {:g} expected", value, DensityGridBuilder::greatest));
 }
 
 void require_place(const glm::ivec3& lower, int side) {
@@ -36,8 +37,7 @@ void require_invertible(const glm::dmat4& m) {
     double box = 1;
     for (int axis = 0; axis < 3; ++axis) {
         const double edge = glm::length(glm::dvec3(m[axis]));
-        if (!(edge >= 1e-6 && edge <= 1e9))
-            reject(fmt::format("has voxels of {:g} m, 1e-6 to 1e9 expected", edge));
+        if (!(edge >= 1e-6 && edge <= 1e9)) reject(fmt::format("has voxels of {:g} m, 1e-6 to 1e9 expected", edge));
         box *= edge;
     }
     if (!(std::abs(glm::determinant(glm::dmat3(m))) >= 1e-6 * box)) reject("has no inverse");
@@ -52,7 +52,8 @@ void DensityGridBuilder::transform(const glm::dmat4& index_to_grid) {
 
 void DensityGridBuilder::require_room(std::size_t bricks) const {
     if (bricks > most_bricks - grid_.bricks.size())
-        throw Error(fmt::format("too large: more than {} bricks of {} voxels", most_bricks, DensityGrid::brick_size));
+        throw Error(
+            fmt::format("too large: more than {} bricks of {} voxels", most_bricks, DensityGrid::brick_size));
 }
 
 void DensityGridBuilder::brick(const glm::ivec3& lower, const grids::BrickValues& values) {

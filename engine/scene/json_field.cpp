@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "engine/core/error.h"
+#include "engine/core/files.h"
 
 namespace tyndall {
 
@@ -31,6 +32,18 @@ void JsonField::require_object(const std::vector<std::string_view>& keys) const 
 std::string JsonField::text() const {
     if (!json.is_string() || json.get_ref<const std::string&>().empty()) fail("a text");
     return json.get<std::string>();
+}
+
+std::filesystem::path JsonField::file_in(const std::filesystem::path& folder) const {
+    const std::string name = text();
+    if (std::ranges::any_of(name, [](unsigned char c) { return c < 0x20 || c == 0x7f; }))
+        fail("a path without control characters");
+    if (std::ranges::count(std::filesystem::path(name), "..") > 0) fail("a path without \"..\"");
+    try {
+        return resolve_inside(folder.empty() ? "." : folder, name);
+    } catch (const Error& e) {
+        throw Error(fmt::format("{}: {}", where, e.what()));
+    }
 }
 
 std::size_t JsonField::choice(const std::vector<std::string_view>& names) const {

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <cstddef>
-#include <fmt/format.h>
+#include <filesystem>
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <nlohmann/json.hpp>
@@ -52,6 +54,8 @@ struct JsonField {
         return number("a number from -1e4 to 1e4", [](float v) { return std::abs(v) <= 1e4F; });
     }
     [[nodiscard]] std::string text() const;
+    /// Of an existing or a missing file in `folder`, never outside of it.
+    [[nodiscard]] std::filesystem::path file_in(const std::filesystem::path& folder) const;
     /// One of `names`, by its index.
     [[nodiscard]] std::size_t choice(const std::vector<std::string_view>& names) const;
     template <int n>

@@ -127,20 +127,10 @@ void parse_bounded_shape(const Field& field, const ShapeRow& shape, Medium& medi
     }
 }
 
-std::filesystem::path resolve_file(const Field& field, const std::filesystem::path& folder) {
-    const std::string name = field.text();
-    if (std::ranges::count(std::filesystem::path(name), "..") > 0) field.fail("a path without \"..\"");
-    try {
-        return resolve_inside(folder.empty() ? "." : folder, name);
-    } catch (const Error& e) {
-        throw Error(fmt::format("{}: {}", field.where, e.what()));
-    }
-}
-
 std::shared_ptr<const DensityGrid> read_grid(const Field& field, GridFiles& files) {
     const Field file = field.at("file");
     const std::string name = field.has("grid") ? field.at("grid").text() : "density";
-    const std::filesystem::path path = resolve_file(file, files.folder);
+    const std::filesystem::path path = file.file_in(files.folder);
     auto& grid = files.read[{path, name}];
     if (grid) return grid;
     try {

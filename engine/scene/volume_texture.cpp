@@ -54,12 +54,7 @@ Header parse_header(const fs::path& path) {
     field.require_object({"image", "size", "type", "voxel_size", "origin"});
     Header header;
     const JsonField image = field.at("image");
-    const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
-    try {
-        header.image = resolve_inside(folder, image.text());
-    } catch (const Error& e) {
-        throw Error(fmt::format("{}: {}", image.where, e.what()));
-    }
+    header.image = image.file_in(path.parent_path());
     header.size = parse_size(field.at("size"));
     const std::string extension = header.image.extension().string();
     if (extension != ".raw" && extension != ".png" && extension != ".exr")
@@ -107,7 +102,8 @@ std::vector<float> read_strip(const Header& header) {
     Image image = read_image(header.image, 1);
     const std::int64_t height = std::int64_t{header.size.y} * header.size.z;
     if (image.size.x != header.size.x || image.size.y != height)
-        throw Error(fmt::format("it is {} x {}, {} x {} expected", image.size.x, image.size.y, header.size.x, height));
+        throw Error(
+            fmt::format("it is {} x {}, {} x {} expected", image.size.x, image.size.y, header.size.x, height));
     return std::move(image.pixels);
 }
 
@@ -137,7 +133,8 @@ void read_volume_texture(const fs::path& path, grids::GridSink& sink) {
         values = header.type.empty() ? read_strip(header) : read_raw(header);
     } catch (const Error& e) {
         const std::string message = e.what(), image = header.image.string();
-        throw Error(fmt::format("{}: {}{}", path.string(), message.starts_with(image) ? "" : image + ": ", message));
+        throw Error(
+            fmt::format("{}: {}{}", path.string(), message.starts_with(image) ? "" : image + ": ", message));
     }
     glm::dmat4 index_to_grid(glm::dmat3(header.voxel_size));
     index_to_grid[3] = glm::dvec4(header.origin + 0.5 * header.voxel_size, 1);
