@@ -193,7 +193,7 @@ TEST(ReferenceGridMedium, WhatIsEmptyIsAbsent) {
     EXPECT_FALSE(Media({medium_of(voxels.grid(), false)}).empty());
 }
 
-/// A sun and the sky's even light, on nothing but media.
+/// A sun, a lamp and the sky's even light, on nothing but media.
 struct Lit {
     test::SceneOfTriangles world;
     Geometry geometry{world.scene, true};
@@ -202,6 +202,15 @@ struct Lit {
 
     Lit() {
         lighting.suns.push_back({glm::normalize(dvec3(0.4, 0.8, 0.3)), dvec3(3, 2, 1), true});
+        lighting.lamps.push_back({.position = {2, 3.5, -6},
+                                  .axis = {0, -1, 0},
+                                  .intensity = {20, 30, 10},
+                                  .range = infinity,
+                                  .radius = 0.01,
+                                  .spot = false,
+                                  .shadow = true,
+                                  .cos_outer = -1,
+                                  .cone_scale = 1});
         lighting.ambient = dvec3(0.1, 0.2, 0.3);
     }
     [[nodiscard]] dvec3 along(const Media& media, dvec3 o, dvec3 d, double end = infinity) const {
@@ -263,6 +272,7 @@ TEST(ReferenceGridMedium, InScatteringIsTheSumOfItsPoints) {
     const Voxels voxels = cloud(11);
     Lit lit;
     lit.lighting.ambient = dvec3(0);
+    lit.lighting.lamps.clear();
     lit.settings.tolerance = 1e-5;
     const Sun& sun = lit.lighting.suns.front();
     for (const bool nearest : {false, true}) {
