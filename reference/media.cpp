@@ -10,6 +10,7 @@ bool does_nothing(const Medium& m) {
 }
 
 bool has_size(const Medium& m) {
+    if (m.shape == Medium::Shape::grid) return m.grid && !m.grid->empty() && m.density > 0 && m.scale > 0;
     return m.half_extent.x > 0 && m.half_extent.y > 0 && m.half_extent.z > 0;
 }
 

@@ -17,7 +17,8 @@ struct MediumPoint {
     dvec3 air{0};                  ///< 1/m: the part of sigma_s that has Rayleigh's phase function
 };
 
-/// The media of a scene: overlapping ones add. Those that do nothing, or whose size is not positive, are left out.
+/// The media of a scene: overlapping ones add. Those that do nothing, whose size is not positive, and empty grids
+/// are left out.
 class Media {
   public:
     explicit Media(const std::vector<Medium>& media);

@@ -19,9 +19,17 @@ MediaRay::MediaRay(const Media& media, dvec3 origin, dvec3 unit_direction, doubl
     for (const MediumShape& shape : media.shapes()) {
         const auto path = shape.path(origin, unit_direction);
         if (!path) continue;
+        if (shape.is_grid()) {
+            Local local{*path, {}, shape.line(*path, 0, end)};
+            const std::vector<double> cells = local.line.knots();
+            if (cells.empty()) continue;
+            edges.insert(edges.end(), cells.begin(), cells.end());
+            locals_.push_back(std::move(local));
+            continue;
+        }
         const std::vector<double> knots = shape.knots(*path, 0, end, true);
         if (knots.empty()) continue;
-        Local local{*path, {}};
+        Local local{*path};
         const double thickest = std::max({shape.sigma_t.x, shape.sigma_t.y, shape.sigma_t.z});
         if (!shape.closed() && thickest > 0)
             local.table = DensityTable([&](double t) { return path->density(t); }, knots,
@@ -67,12 +75,14 @@ MediumPoint MediaRay::at(double t) const {
 
 dvec3 MediaRay::depth(double t) const {
     dvec3 depth = media_->unbounded_depth(origin_.y, direction_.y, t, true);
-    for (const Local& local : locals_) {
-        const MediumShape& shape = *local.path.shape;
-        depth += shape.sigma_t *
-                 (shape.closed() ? shape.density_length(local.path, 0, t, 0) : local.table.integral_to(t));
-    }
+    for (const Local& local : locals_) depth += local.path.shape->sigma_t * local.density_length(t);
     return depth;
+}
+
+double MediaRay::Local::density_length(double t) const {
+    const MediumShape& shape = *path.shape;
+    if (shape.is_grid()) return line.integral_to(t);
+    return shape.closed() ? shape.density_length(path, 0, t, 0) : table.integral_to(t);
 }
 
 // By bisection, from above; infinite where the depth stays less up to `end`.

@@ -8,7 +8,7 @@
 namespace tyndall::reference {
 
 /// The media along one ray from the eye. What is varied by noise or has a curved soft rim is integrated once, into
-/// a table; all else is in closed form.
+/// a table, and so are grids, cell by cell; all else is in closed form.
 class MediaRay {
   public:
     /// `end` may be infinite. `tolerance`: absolute, of optical depths.
@@ -30,7 +30,9 @@ class MediaRay {
   private:
     struct Local {
         MediumShape::Path path;
-        DensityTable table;  ///< empty where the shape's integral is closed
+        DensityTable table{};                                 ///< empty where the shape's integral is closed
+        DensityLine line{};                                   ///< of a grid
+        [[nodiscard]] double density_length(double t) const;  ///< over [0, t], m
     };
     [[nodiscard]] double source_end(double end) const;
     [[nodiscard]] double where_depth_is(double depth, double end, bool thinnest) const;

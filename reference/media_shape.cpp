@@ -25,13 +25,13 @@ double smallest(dvec3 v) {
 bool is_box(Medium::Shape shape) {
     switch (shape) {
         case Medium::Shape::box:
+        case Medium::Shape::grid:
             return true;
         case Medium::Shape::sphere:
         case Medium::Shape::ellipsoid:
             return false;
         case Medium::Shape::global:
         case Medium::Shape::height:
-        case Medium::Shape::grid:
             break;
     }
     throw Error(fmt::format("reference: {} medium, a bounded one expected", name_of(shape)));
@@ -80,7 +80,27 @@ MediumShape::MediumShape(const Medium& medium)
       profile_(medium.height_profile),
       noise_{medium.noise_scale, medium.noise_amount, static_cast<unsigned>(medium.noise_seed)},
       base_(medium.base),
-      falloff_(medium.falloff) {}
+      falloff_(medium.falloff) {
+    if (medium.shape == Medium::Shape::grid) place_grid(medium);
+}
+
+void MediumShape::place_grid(const Medium& medium) {
+    const auto field = std::make_shared<DensityField>(*medium.grid, medium.nearest);
+    field_ = field;
+    field_density_ = medium.density;
+    field_greatest_ = field_density_ * static_cast<double>(medium.grid->greatest);
+    extent_ = 0.5 * (field->upper() - field->lower());
+    field_middle_ = field->lower() + extent_;
+    const glm::dmat4 to_world = index_to_world(medium);
+    const glm::dmat3 turn(to_world);
+    center_ = dvec3(to_world * glm::dvec4(field_middle_, 1));
+    world_to_shape_ = glm::inverse(turn);
+    bounding_radius_ = 0;
+    for (const dvec3 corner : {dvec3(1, 1, 1), dvec3(1, 1, -1), dvec3(1, -1, 1), dvec3(-1, 1, 1)})
+        bounding_radius_ = std::max(bounding_radius_, glm::length(turn * (corner * extent_)));
+    softness_ = 0;
+    noisy_ = profile_ = false;
+}
 
 // Of the surface below a point, m. Ellipsoid: along the gradient of k = |p / radii|, at most the smallest radius.
 double MediumShape::depth(dvec3 p) const {
@@ -99,6 +119,7 @@ double MediumShape::smooth_density(dvec3 p, double y) const {
 }
 
 double MediumShape::density(dvec3 p, double y) const {
+    if (field_) return field_density_ * field_->at(p + field_middle_);
     const double smooth = smooth_density(p, y);
     return noisy_ && smooth > 0 ? smooth * noise_.factor(glm::vec3(p)) : smooth;
 }
@@ -108,6 +129,7 @@ double MediumShape::density(dvec3 world) const {
 }
 
 double MediumShape::greatest_density() const {
+    if (field_) return field_greatest_;
     return (noisy_ ? 2 : 1) * (profile_ ? height_density(center_.y - bounding_radius_, base_, falloff_) : 1);
 }
 
@@ -199,6 +221,7 @@ std::vector<double> MediumShape::knots(const Path& path, double begin, double en
     begin = std::max(begin, path.inside.begin);
     end = std::min(end, path.inside.end);
     if (!(begin < end)) return {};
+    if (field_) return line(path, begin, end).knots();
     std::vector<double> knots{begin, end};
     box_ ? add_box_knots(path, knots) : add_ellipsoid_knots(path, knots);
     if (noisy_ && features) {
@@ -210,6 +233,11 @@ std::vector<double> MediumShape::knots(const Path& path, double begin, double en
     return knots;
 }
 
+DensityLine MediumShape::line(const Path& path, double begin, double end) const {
+    return field_->line(path.origin + field_middle_, path.direction,
+                        {std::max(begin, path.inside.begin), std::min(end, path.inside.end)}, field_density_);
+}
+
 double MediumShape::attainable(double tolerance, double length) const {
     return noisy_ ? std::max(tolerance, 2e-6 * length) : tolerance;
 }
@@ -219,6 +247,7 @@ double MediumShape::density_length(const Path& path, double begin, double end,
     begin = std::max(begin, path.inside.begin);
     end = std::min(end, path.inside.end);
     if (!(begin < end)) return 0;
+    if (field_) return field_density_ * field_->integral(path.origin + field_middle_, path.direction, {begin, end});
     const double length = end - begin;
     if (closed() && softness_ == 0)
         return profile_ ? height_length(path.height + begin * path.rise, path.rise, length, base_, falloff_)

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "engine/scene/medium.h"
+#include "reference/density_field.h"
 #include "reference/geometry.h"
 #include "reference/media_noise.h"
 
@@ -23,7 +25,7 @@ struct DepthTolerance {
     [[nodiscard]] DepthTolerance over(double sigma_t) const { return {smooth / sigma_t, noise / sigma_t}; }
 };
 
-/// A bounded medium: its density is rim * noise * height profile.
+/// A bounded medium: its density is rim * noise * height profile, or that of a grid.
 class MediumShape {
   public:
     explicit MediumShape(const Medium& medium);
@@ -31,7 +33,8 @@ class MediumShape {
     dvec3 sigma_s, sigma_t, emission;
     double anisotropy;
 
-    /// A ray in the shape's frame, and the part of it that lies inside.
+    /// A ray in the shape's frame, and the part of it that lies inside; for a grid, in its smallest box outside of
+    /// which there is nothing.
     struct Path {
         const MediumShape* shape;
         dvec3 origin, direction;
@@ -51,6 +54,9 @@ class MediumShape {
     /// is noise, also points as far apart as its largest features, so that a quadrature rule cannot miss those.
     [[nodiscard]] std::vector<double> knots(const Path& path, double begin, double end, bool features) const;
     [[nodiscard]] bool noisy() const { return noisy_; }
+    [[nodiscard]] bool is_grid() const { return field_ != nullptr; }
+    /// Of a grid: along a path within [begin, end].
+    [[nodiscard]] DensityLine line(const Path& path, double begin, double end) const;
     /// The integral of the density between two distances can be had in closed form.
     [[nodiscard]] bool closed() const { return !noisy_ && (softness_ == 0 || (box_ && !profile_)); }
     /// What an integral over `length` metres can be accurate to, m, if asked for `tolerance`: noise is single
@@ -72,8 +78,13 @@ class MediumShape {
     void add_box_knots(const Path& path, std::vector<double>& knots) const;
     void add_ellipsoid_knots(const Path& path, std::vector<double>& knots) const;
 
-    bool box_;
-    dvec3 center_, extent_;  ///< half size of a box, radii
+    void place_grid(const Medium& medium);
+
+    std::shared_ptr<const DensityField> field_;  ///< of a grid, whose frame is voxel coordinates less the middle
+    dvec3 field_middle_{0};
+    double field_density_ = 0, field_greatest_ = 0;  ///< at a voxel of value 1, and anywhere
+    bool box_;                                       ///< or the box round a grid
+    dvec3 center_, extent_;                          ///< half size of a box, radii
     double bounding_radius_;
     glm::dmat3 world_to_shape_;
     double softness_;  ///< 0: the rim is a step
