@@ -23,7 +23,8 @@ struct DensityGrid {
     [[nodiscard]] bool empty() const { return bricks.empty(); }
 };
 
-/// Reads .vdb, .nvdb, or a volume texture's .json. `name` picks the grid of the file. Throws Error of one line that
+/// Reads .vdb, .nvdb, or a volume texture's .json (volume_texture.h). `name` picks the grid of the file; a texture
+/// has only one. OpenVDB and NanoVDB read in a child process, for 10 s at most. Throws Error of one line that
 /// starts with the path: files that are missing, truncated, corrupt, of another kind (level sets, vectors, double
 /// precision), without such a grid, too large, too slow to read, with values that are negative, not finite or
 /// beyond 1e6.

@@ -11,11 +11,11 @@ namespace {
 constexpr glm::ivec3 cells(44, 64, 44);
 constexpr float cell_size = 0.05F;  ///< m
 constexpr float seconds_a_step = 1.0F / 30;
-constexpr int steps = 110;
+constexpr int steps = 130;
 
 /// Embers on the floor: smoke and heat, in patches that wander.
 void feed(Fluid& fluid, float time) {
-    constexpr float radius = 4;  // cells
+    constexpr float radius = 5;  // cells
     for (int z = 0; z < cells.z; ++z)
         for (int x = 0; x < cells.x; ++x)
             for (int y = 0; y < 3; ++y) {
@@ -37,7 +37,7 @@ void disturb(Fluid& fluid, float time) {
                 const glm::vec3 p = glm::vec3(x, y, z) / 14.0F + glm::vec3(0, -0.6F * time, 0.35F * time);
                 fluid.push(
                     x, y, z,
-                    20.0F * glm::vec3(gradient_noise(p, 7), 0.3F * gradient_noise(p, 8), gradient_noise(p, 9)));
+                    8.0F * glm::vec3(gradient_noise(p, 7), 0.3F * gradient_noise(p, 8), gradient_noise(p, 9)));
             }
 }
 
@@ -57,7 +57,7 @@ Voxels make_smoke() {
         disturb(fluid, time);
         for (float& heat : fluid.heat.values) heat *= 0.98F;
         for (float& smoke : fluid.smoke.values) smoke *= 0.997F;
-        fluid.step(seconds_a_step, 80, 22);
+        fluid.step(seconds_a_step, 90, 6);
     }
     Voxels voxels(cells, cell_size,
                   {-0.5F * cell_size * (cells.x - 1), 0.5F * cell_size, -0.5F * cell_size * (cells.z - 1)});
