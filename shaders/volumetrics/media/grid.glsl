@@ -81,7 +81,8 @@ float grid_mean(LocalMedium medium, vec3 o, vec3 d, float begin, float end, floa
     float voxels = length(along) * (end - begin);
     float coarseness = max(ceil(log2(max(voxels / float(most), 1.0))), floor(log2(max(length(along) * width, 1.0))));
     GridLevel level = grid_level(medium, min(int(coarseness), grid_level_count(medium) - 1));
-    int count = clamp(int(ceil(voxels * level.scale)), 1, most);
+    float samples = level.nearest ? 4.0 : 1.0;  // of a texel
+    int count = clamp(int(ceil(samples * voxels * level.scale)), 1, most);
     vec3 stride = along * ((end - begin) / float(count));
     float sum = 0.0;
     for (int i = 0; i < count; ++i) sum += grid_value(level, from + stride * (float(i) + 0.5));

@@ -7,6 +7,7 @@
 
 #include "engine/core/files.h"
 #include "tests/gpu/support/gl_test.h"
+#include "tests/gpu/support/light_probe.h"
 #include "tests/gpu/support/volumetrics_host.h"
 
 namespace tyndall::test {
@@ -18,26 +19,6 @@ using ::testing::Not;
 
 constexpr const char* sun_pass = "volumetrics/sun_volume";
 constexpr const char* lamp_pass = "volumetrics/lamp_volumes";
-
-/// As a host's lighting pass would ask for it.
-constexpr const char* probe_glsl = R"(
-#include "shaders/volumetrics/light/light_transmittance.glsl"
-layout(local_size_x = 1) in;
-layout(std430, binding = 0) buffer Points { vec4 points[]; };
-uniform vec3 light;  // towards the sun; or where the lamp is
-uniform int lamp;    // its index; < 0: the sun
-void main() {
-    uint i = gl_GlobalInvocationID.x;
-    vec3 point = points[i].xyz;
-    vec3 to_lamp = light - point;
-    points[i].rgb = lamp < 0 ? medium_sun_transmittance(point, light)
-                             : medium_lamp_transmittance(uint(lamp), point, normalize(to_lamp), length(to_lamp));
-}
-)";
-const ProgramDesc probe_program{.name = "probe",
-                                .stages = {{GL_COMPUTE_SHADER, "shaders/probe.comp"}},
-                                .axes = {{"LIGHT_VOLUMES", {0, 1}}},
-                                .valid = {}};
 
 /// Metres of the path from a to b in a medium of sharp edges.
 double chord(const LocalMedium& medium, glm::dvec3 a, glm::dvec3 b) {
@@ -68,8 +49,7 @@ double chord(const LocalMedium& medium, glm::dvec3 a, glm::dvec3 b) {
 
 class VolumetricsLightVolume : public GlTest {
   protected:
-    VolumetricsLightVolume() : probes(folder.path()) {
-        write_text(folder.path() / "shaders/probe.comp", probe_glsl);
+    VolumetricsLightVolume() {
         host.view_depth = [](int, int) { return 20.0F; };
     }
     /// As plain_settings, with volumes that are soon made.
@@ -80,9 +60,7 @@ class VolumetricsLightVolume : public GlTest {
         return s;
     }
     StubHost host;
-    ShaderFolder folder;
-    ShaderLibrary probes;
-    TransientPool pool;
+    LightProbe probe;
     Settings settings;
     const LocalMedium ball{.center = {1, 2, -6}, .half_extent = glm::vec3(2), .sigma_a = glm::vec3(0.4F)};
     const LocalMedium box{.shape = Shape::box,
@@ -91,36 +69,8 @@ class VolumetricsLightVolume : public GlTest {
                           .rotation = glm::angleAxis(0.7F, glm::normalize(glm::vec3(1, 2, 3))),
                           .sigma_a = glm::vec3(0.4F)};
 
-    /// Of the sun, or of a lamp.
     std::vector<glm::vec3> transmittance(const std::vector<glm::vec3>& points, int lamp = -1) {
-        PassList passes;
-        const Inputs inputs = host.inputs(passes);
-        host.volumetrics().prepare(inputs, settings);
-        const volumetrics::LightTransmittance light = host.volumetrics().add_light_passes(passes, inputs, settings);
-        std::vector<glm::vec4> values;
-        for (const glm::vec3 point : points) values.emplace_back(point, 0);
-        gl::Buffer buffer = gl::Buffer::of(std::span<const glm::vec4>(values), "points");
-        passes.add(
-            "probe",
-            [&](PassBuilder& builder) {
-                builder.sample(light.sun_volume);
-                builder.sample(light.lamp_volumes);
-                builder.keep();
-            },
-            [&](const PassContext&) {
-                const gl::Program& program = probes.get(probe_program, {{"LIGHT_VOLUMES", light.light_volumes}});
-                host.volumetrics().bind_uniforms();
-                buffer.bind(GL_SHADER_STORAGE_BUFFER, 0);
-                program.set("light", lamp < 0 ? -host.sun_direction
-                                              : glm::vec3(host.lights[std::size_t(lamp)].position_range));
-                program.set("lamp", lamp);
-                program.use();
-                glDispatchCompute(static_cast<GLuint>(values.size()), 1, 1);
-            });
-        passes.compile();
-        passes.execute(pool);
-        buffer.read(0, values.size() * sizeof values[0], values.data());
-        return {values.begin(), values.end()};
+        return probe.transmittance(host, settings, points, lamp);
     }
     /// Points in a medium's box and beyond: before it, in it, behind it, beside it.
     static std::vector<glm::vec3> points_round(const LocalMedium& medium, glm::vec3 direction) {
@@ -298,13 +248,13 @@ TEST_F(VolumetricsLightVolume, NothingOfItWithoutNeed) {
 }
 
 TEST_F(VolumetricsLightVolume, WithoutVolumesTheyAreNotInTheShaderText) {
-    const std::string text = resolve_includes(folder.path(), "shaders/volumetrics/light/light_transmittance.glsl");
+    const std::string text = resolve_includes(probe.folder(), "shaders/volumetrics/light/light_transmittance.glsl");
     EXPECT_THAT(text, HasSubstr("#if LIGHT_VOLUMES"));
     host.global = {{.sigma_s = glm::vec3(0.1F)}};
     host.has_sun = true;
     (void)transmittance({glm::vec3(0)});
-    const gl::Program& without = probes.get(probe_program, {{"LIGHT_VOLUMES", 0}});
-    const gl::Program& with = probes.get(probe_program, {{"LIGHT_VOLUMES", 1}});
+    const gl::Program& without = probe.program(0);
+    const gl::Program& with = probe.program(1);
     EXPECT_EQ(glGetUniformLocation(without.id(), "sun_volume"), -1);
     EXPECT_EQ(glGetUniformLocation(without.id(), "lamp_volumes"), -1);
     EXPECT_GE(glGetUniformLocation(with.id(), "sun_volume"), 0);
