@@ -49,6 +49,30 @@ float draw_length(Random& random) {
     return sign * usual_or(random, 0.5, 20, 1e-3, 1e3);
 }
 
+/// Two lumps that share no brick, one of them along bricks' borders.
+const std::shared_ptr<const DensityGrid>& lumps() {
+    static const auto made = [] {
+        auto grid = std::make_shared<DensityGrid>();
+        grid->bricks = {{-8, 0, 0}, {0, 0, 0}, {24, 8, -16}};
+        Random random{1};
+        for (std::size_t i = 0; i < grid->bricks.size() * DensityGrid::brick_size; ++i)
+            grid->values.push_back(random.chance(0.4) ? static_cast<float>(random.unit()) : 0.0F);
+        grid->lower = {-8, 0, -16};
+        grid->upper = {31, 15, 7};
+        grid->greatest = *std::ranges::max_element(grid->values);
+        return std::shared_ptr<const DensityGrid>(grid);
+    }();
+    return made;
+}
+
+void make_grid(Medium& medium, Random random) {
+    medium.shape = Medium::Shape::grid;
+    medium.grid = lumps();
+    medium.scale = usual_or(random, 0.03, 1, 1e-4, 1e3);
+    medium.density = usual_or(random, 0.1, 10, 1e-6, 1e4);
+    medium.nearest = random.chance(0.5);
+}
+
 Medium draw_extreme_local(bool first, const StressFrame& frame, const Structure& structure, glm::vec3 origin,
                           Random& random) {
     Medium medium;
@@ -74,6 +98,10 @@ Medium draw_extreme_local(bool first, const StressFrame& frame, const Structure&
     medium.height_profile = random.chance(0.3);
     medium.falloff = usual_or(random, 0.5, 20, 1e-3, 1e4);
     medium.base = origin.y + static_cast<float>(random.linear(-100, 100));
+    constexpr int most_grids = 8;
+    if (random.fork("is grid").chance(0.1) &&
+        std::ranges::count(frame.media, Medium::Shape::grid, &Medium::shape) < most_grids)
+        make_grid(medium, random.fork("grid"));
     return medium;
 }
 
