@@ -37,7 +37,7 @@ std::array<LobeSample, 256> lobe_samples() {
 }  // namespace
 
 Sky::Sky(const Scene& scene, double factor)
-    : factor_(factor), brightest_(glsl::SKY_BRIGHTEST * scene.light_unit()) {
+    : factor_(factor), cirrus_(!has_clouds(scene.media)), brightest_(glsl::SKY_BRIGHTEST * scene.light_unit()) {
     const auto index = scene.sun();
     if (index) {
         const Light& sun = scene.lights[*index];
@@ -53,7 +53,8 @@ Sky::Sky(const Scene& scene, double factor)
 dvec3 Sky::background(dvec3 unit_direction) const {
     const glm::vec3 d(unit_direction), to_sun(to_sun_);
     const auto lux = static_cast<float>(glm::dot(illuminance_, luminance));
-    const glm::vec3 radiance = glsl::sky_clouded(glsl::sky_radiance(d, to_sun, lux), d, to_sun, lux) +
+    const glm::vec3 clear = glsl::sky_radiance(d, to_sun, lux);
+    const glm::vec3 radiance = (cirrus_ ? glsl::sky_clouded(clear, d, to_sun, lux) : clear) +
                                glsl::sky_sun_disc(d, to_sun, glm::vec3(illuminance_), disc_edge);
     return glm::min(radiance, glm::vec3(brightest_));
 }

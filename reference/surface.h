@@ -42,6 +42,7 @@ class Sky {
     dvec3 to_sun_{0, 1, 0};
     dvec3 illuminance_{0};
     double factor_;
+    bool cirrus_;      ///< the sky paints high clouds: the scene has none
     float brightest_;  ///< cd/m²
 };
 

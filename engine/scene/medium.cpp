@@ -213,6 +213,15 @@ glm::dmat4 index_to_world(const Medium& medium) {
     return to_world * medium.grid->index_to_grid;
 }
 
+bool has_clouds(const std::vector<Medium>& media) {
+    return std::ranges::any_of(media, [](const Medium& medium) {
+        if (medium.shape != Medium::Shape::grid || medium.grid->empty()) return false;
+        const Aabb bounds = world_bounds(medium);
+        const glm::vec3 size = bounds.max - bounds.min;
+        return std::max({size.x, size.y, size.z}) >= 100;
+    });
+}
+
 Aabb world_bounds(const Medium& bounded) {
     if (bounded.shape == Medium::Shape::grid) {
         const glm::vec3 reach(bounded.nearest ? 0.5F : 1.0F);

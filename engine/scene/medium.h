@@ -48,6 +48,8 @@ struct Medium {
 [[nodiscard]] std::string_view name_of(Medium::Shape shape);
 /// Else it fills space.
 [[nodiscard]] bool is_bounded(const Medium& medium);
+/// Some are density grids of 100 m or more: clouds, in the place of those that the sky paints.
+[[nodiscard]] bool has_clouds(const std::vector<Medium>& media);
 /// Of a bounded medium, and not too small: those of the box round it.
 [[nodiscard]] Aabb world_bounds(const Medium& bounded);
 

@@ -89,6 +89,7 @@ void add_play_command(CLI::App& app) {
             if (command->count("--size") > 0) given.window = o->draw.pixels();
             const PlayChoice choice = choose_play(opening.context->capabilities().renderer, given);
             o->draw.preset = choice.preset;
+            opening.settings.set("scattering_orders=4");  // players see white clouds
             o->draw.apply(opening.settings);
             o->game.scale = choice.scale;
             o->game.told = choice.told;

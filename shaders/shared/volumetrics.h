@@ -110,6 +110,10 @@ struct VolumetricsData {
     uint further_suns;          // the first of the lamps
     uint loop_rounds;           // of all loops of a shader, after which the driver ends them
     uint grid_suns;             // of grid_sun
+    uint scattering_orders;     // of sunlight in density grids
+    uint unused_1;
+    uint unused_2;
+    uint unused_3;
     mat4 froxel_begins;         // FROXEL_TABLE: view depth (m) where each of 16 equal shares of the slices begins
     mat4 froxel_lengths;        // and their lengths (m); entry i is [i / 4][i % 4]
     mat4 world_to_sun_volume;   // world to texture xyz of the sun volume, see light_transmittance.glsl

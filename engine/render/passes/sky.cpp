@@ -13,7 +13,7 @@ const ProgramDesc irradiance_program{
 const ProgramDesc background_program{
     "sky/background",
     {{GL_VERTEX_SHADER, "shaders/lib/fullscreen.vert"}, {GL_FRAGMENT_SHADER, "shaders/engine/sky_background.frag"}},
-    {},
+    {{"CIRRUS", {0, 1}}},
     {}};
 const ProgramRegistry::Registration registrations[] = {ProgramRegistry::Registration(cube_program),
                                                        ProgramRegistry::Registration(irradiance_program),
@@ -103,7 +103,8 @@ TextureRef SkyPass::add_background(FrameContext& frame, const Output& sky, Textu
             pass.bind_framebuffer();
             // The triangle lies at depth 0: it passes where nothing nearer was drawn.
             gl::apply({.depth_test = true});
-            const gl::Program& shader = frame.shaders.get(background_program);
+            const gl::Program& shader =
+                frame.shaders.get(background_program, {{"CIRRUS", !has_clouds(frame.scene.media)}});
             shader.set("to_sun", sun_.to_sun);
             shader.set("illuminance", sun_.illuminance / sun_.light_unit);
             shader.use();

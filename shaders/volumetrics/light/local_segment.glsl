@@ -12,8 +12,27 @@ Extinction local_sun_depth(Ray ray, float t) {
     return to_extinction(local_sun_optical_depth(ray.origin + ray.direction * t));
 }
 
+#if GRIDS
+// What density grids scatter of sunlight that was scattered before, over a part of a ray in two halves, as its front sends it on:
+// the order n + 1 as if light were scattered once, by 2^-n as much matter, dimmed by 2^-n of the optical depth and with an
+// anisotropy of g 2^-n (Wrenninge et al. 2013, "Oz: The Great and Volumetric": a = b = c = 1/2). Not physics, but
+// thick clouds are bright.
+vec3 later_orders(Ray ray, Medium m, Extinction half_depth, Extinction front, Extinction middle, Extinction back, vec2 lengths) {
+    vec3 sum = vec3(0.0);
+    float part = 0.5;
+    for (uint n = 1u; n < volumetrics.scattering_orders; ++n) {
+        Extinction path = sun_between(half_depth, part * front, part * middle, lengths.x).effective_length +
+                          exp(-half_depth) * sun_between(half_depth, part * middle, part * back, lengths.y).effective_length;
+        sum += part * particle_phase(part * m.anisotropy, -dot(sun_direction(), ray.direction)) * path;
+        part *= 0.5;
+    }
+    return sun_illuminance() * grid_sigma_s * sum;
+}
+vec3 sun_later_orders = vec3(0.0);  // of the last sun_part
+#endif
+
 // As sun_segment, through local media too: in two halves, for their shadow may lie anywhere in the part.
-SunSegment sun_part(Ray ray, float begin, float end, Optics optics, inout Extinction front) {
+SunSegment sun_part(Ray ray, Medium m, float begin, float end, Optics optics, inout Extinction front) {
     float middle = 0.5 * (begin + end);
     Extinction half_depth = 0.5 * optics.depth;
     Extinction at_middle = to_extinction(sun_optical_depth(ray.origin.y + ray.direction.y * middle, -sun_direction())) +
@@ -24,6 +43,10 @@ SunSegment sun_part(Ray ray, float begin, float end, Optics optics, inout Extinc
     SunSegment behind = sun_between(half_depth, at_middle, back + local_back, end - middle);
     sun.effective_length += exp(-half_depth) * behind.effective_length;
     sun.x += behind.x;
+#if GRIDS
+    sun_later_orders = later_orders(ray, m, half_depth, front + local_sun_front, at_middle, back + local_back,
+                                    vec2(middle - begin, end - middle));
+#endif
     front = back;
     local_sun_front = local_back;
     return sun;
@@ -45,7 +68,10 @@ void add_local_segments(Ray ray, float begin, float end, vec3 ambient, inout Ext
         Optics optics = medium_optics(m, path_length);
         vec3 gathered = (m.sigma_s * ambient + m.emission) * optics.effective_length;
 #if HAS_SUN
-        gathered += sun_scattering(ray, m, sun_part(ray, begin, part_end, optics, sun_front).effective_length);
+        gathered += sun_scattering(ray, m, sun_part(ray, m, begin, part_end, optics, sun_front).effective_length);
+#if GRIDS
+        gathered += sun_later_orders;
+#endif
 #endif
         march.radiance += march.transmittance * gathered;
         march.transmittance *= optics.transmittance;

@@ -112,6 +112,10 @@ float next_cut(Ray ray, float t, float end, float transmittance) {
     return cut;
 }
 
+#if GRIDS
+vec3 grid_sigma_s = vec3(0.0);  // of the part of the ray that add_local_media saw last, 1/m
+#endif
+
 void add_medium(LocalMedium medium, Ray ray, float begin, float end, vec2 part, float noise, inout Medium m) {
     count_work(WORK_MEDIUM_SAMPLES, 1u);
     float density = mean_density(medium, ray.origin, ray.direction, part.x, part.y);
@@ -120,6 +124,9 @@ void add_medium(LocalMedium medium, Ray ray, float begin, float end, vec2 part, 
                          width_at(ray, 0.5 * (part.x + part.y), volumetrics.target.x), MOST_GRID_SAMPLES);
     float share = density * ((part.y - part.x) / (end - begin));
     vec3 sigma_s = medium.sigma_s_g.rgb * share;
+#if GRIDS
+    if (has_grid(medium)) grid_sigma_s += sigma_s;
+#endif
     add_particles(sigma_s, medium.sigma_s_g.w * mean_channel(sigma_s), m);
     m.emission += medium.emission_noise.rgb * share;
     m.optical_depth += local_sigma_t(medium) * (density * (part.y - part.x));
@@ -128,6 +135,9 @@ void add_medium(LocalMedium medium, Ray ray, float begin, float end, vec2 part, 
 // Adds the local media, in the mean over [begin, end].
 void add_local_media(Ray ray, float begin, float end, inout Medium m) {
     float noise = -1.0;
+#if GRIDS
+    grid_sigma_s = vec3(0.0);
+#endif
     for (int i = 0; i < chord_count; ++i) {
         vec2 part = vec2(max(chord_span[i].x, begin), min(chord_span[i].y, end));
         if (part.x >= part.y) continue;

@@ -168,8 +168,11 @@ void march_segment(Ray ray, float a, float b, float offset, inout Extinction sun
             Optics optics = medium_optics(m, path_length);
             march.radiance += march.transmittance * ((m.sigma_s * ambient + m.emission) * optics.effective_length);
 #if HAS_SUN
-            SunSegment light = sun_part(ray, begin, end, optics, sun_front);
+            SunSegment light = sun_part(ray, m, begin, end, optics, sun_front);
             vec3 gathered = march.transmittance * sun_scattering(ray, m, light.effective_length);
+#if GRIDS
+            gathered += march.transmittance * sun_later_orders;
+#endif
             Segment segment = Segment(begin, end, offset, m.anisotropy,
                                       volumetrics.homogeneous_sigma_s.rgb + local_sigma_s, vec3(0.0));
             float fall = sunlight_fall(ray, segment, light.x);

@@ -43,6 +43,7 @@ struct LightSettings {
     PhaseFunction phase = PhaseFunction::henyey_greenstein;
     float back_anisotropy = -0.5f;  ///< -0.999 … 0, of double_henyey_greenstein
     float back_weight = 0.2f;       ///< 0 … 1
+    int scattering_orders = 1;      ///< 1 … 8, of sunlight in density grids
 };
 /// Of techniques that sample.
 struct NoiseSettings {

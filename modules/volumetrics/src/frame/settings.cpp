@@ -67,6 +67,11 @@ SettingsTable& growing_settings_table() {
                   {"phase_back_weight", "Back lobe weight",
                    "Share of the light that double_henyey_greenstein scatters in its backward lobe."},
                   0, 1)
+            .integer(in(&S::light, &LightSettings::scattering_orders),
+                     {"scattering_orders", "Scattering orders",
+                      "Of sunlight in density grids: 1 is scattered once, which is what the references have; more "
+                      "make thick clouds bright, each as if half as much matter scattered half as far."},
+                     1, 8, Effect::uniform, Scale::linear)
             .choice(in(&S::noise, &NoiseSettings::kind),
                     {"noise", "Noise",
                      "Where in its segments a pixel samples: the middle; the Bayer matrix; white noise, of each "

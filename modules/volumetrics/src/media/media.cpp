@@ -236,6 +236,7 @@ FrameMedia gather_media(const Inputs& inputs, const Settings& settings) {
     media.data.phase = phase_option(settings.light.phase);
     media.data.back_anisotropy = settings.light.back_anisotropy;
     media.data.back_weight = settings.light.back_weight;
+    media.data.scattering_orders = static_cast<unsigned>(settings.light.scattering_orders);
     media.data.light_transmittance = settings.light.transmittance ? 1U : 0U;
     media.data.has_ambient = inputs.has_ambient ? 1U : 0U;
     media.data.further_suns = static_cast<std::uint32_t>(
