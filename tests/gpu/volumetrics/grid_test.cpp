@@ -283,6 +283,29 @@ TEST_F(VolumetricsGridLight, SeveralGridsAreTheProductOfEach) {
             EXPECT_NEAR(all[i][channel], a[i][channel] * b[i][channel] * c[i][channel], 0.02);
 }
 
+// A cube of ones under a sun straight above, seen level through its middle, 2 m below its top: the sun's optical
+// depth is the same all along the ray.
+TEST_F(VolumetricsGridLight, LaterOrdersSeeHalfTheDepthAndScatterHalf) {
+    Voxels ones;
+    for (int z = 0; z < 20; ++z)
+        for (int y = 0; y < 20; ++y)
+            for (int x = 0; x < 20; ++x) ones.set({x, y, z}, 1);
+    LocalMedium cube{.sigma_s = glm::vec3(0.5F), .sigma_a = glm::vec3(0.1F)};
+    set_grid(cube, ones.grid(), placed({-1.9, -1.9, -13.9}, glm::dvec3(0.2), 0), true);
+    host.local = {cube};
+    host.sun_direction = {0, -1, 0};
+    host.sun_illuminance = glm::vec3(100);
+    settings.light_volumes.grid_size = 64;
+    for (const int orders : {1, 2, 4}) {
+        settings.light.scattering_orders = orders;
+        double expected = 0;
+        for (int n = 0; n < orders; ++n)
+            expected += std::exp2(-n) * 0.5 * 100 * phase_hg(0, 0) * std::exp(-0.6 * 2 * std::exp2(-n)) *
+                        -std::expm1(-0.6 * 4) / 0.6;
+        EXPECT_NEAR(host.render(settings).scattering.at(0, 0)[0], expected, 0.02 * expected) << orders << " orders";
+    }
+}
+
 TEST_F(VolumetricsGridLight, LampsAreDimmedByTheVoxelsOnTheirWay) {
     host.has_sun = false;
     host.lights = {point_light({0, 6, -12}, 1, 40)};
