@@ -283,8 +283,8 @@ TEST_F(VolumetricsGridLight, SeveralGridsAreTheProductOfEach) {
             EXPECT_NEAR(all[i][channel], a[i][channel] * b[i][channel] * c[i][channel], 0.02);
 }
 
-// A cube of ones under a sun straight above, seen level through its middle, 2 m below its top: the sun's optical
-// depth is the same all along the ray.
+// In a cube of ones under a sun straight above, 2 m below its top and looking level along 3.5 m of it: the sun's
+// optical depth is the same all along the ray, but for the cube's edge.
 TEST_F(VolumetricsGridLight, LaterOrdersSeeHalfTheDepthAndScatterHalf) {
     Voxels ones;
     for (int z = 0; z < 20; ++z)
@@ -293,6 +293,7 @@ TEST_F(VolumetricsGridLight, LaterOrdersSeeHalfTheDepthAndScatterHalf) {
     LocalMedium cube{.sigma_s = glm::vec3(0.5F), .sigma_a = glm::vec3(0.1F)};
     set_grid(cube, ones.grid(), placed({-1.9, -1.9, -13.9}, glm::dvec3(0.2), 0), true);
     host.local = {cube};
+    host.eye = {0, 0, -10.5F};
     host.sun_direction = {0, -1, 0};
     host.sun_illuminance = glm::vec3(100);
     settings.light_volumes.grid_size = 64;
@@ -301,8 +302,10 @@ TEST_F(VolumetricsGridLight, LaterOrdersSeeHalfTheDepthAndScatterHalf) {
         double expected = 0;
         for (int n = 0; n < orders; ++n)
             expected += std::exp2(-n) * 0.5 * 100 * phase_hg(0, 0) * std::exp(-0.6 * 2 * std::exp2(-n)) *
-                        -std::expm1(-0.6 * 4) / 0.6;
-        EXPECT_NEAR(host.render(settings).scattering.at(0, 0)[0], expected, 0.02 * expected) << orders << " orders";
+                        -std::expm1(-0.6 * 3.5) / 0.6;
+        const Frame frame = host.render(settings);
+        EXPECT_NEAR(frame.transmittance.at(0, 0)[0], std::exp(-0.6 * 3.5), 1e-3);
+        EXPECT_NEAR(frame.scattering.at(0, 0)[0], expected, 0.02 * expected) << orders << " orders";
     }
 }
 
