@@ -99,7 +99,7 @@ Medium draw_extreme_local(bool first, const StressFrame& frame, const Structure&
     medium.falloff = usual_or(random, 0.5, 20, 1e-3, 1e4);
     medium.base = origin.y + static_cast<float>(random.linear(-100, 100));
     constexpr int most_grids = 8;
-    if (random.fork("is grid").chance(0.1) &&
+    if (random.fork("is grid").chance(0.04) &&
         std::ranges::count(frame.media, Medium::Shape::grid, &Medium::shape) < most_grids)
         make_grid(medium, random.fork("grid"));
     return medium;

@@ -3,13 +3,13 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <map>
 #include <random>
 
 #include "engine/core/error.h"
 #include "tests/gpu/support/gl_test.h"
 #include "tests/gpu/support/light_probe.h"
 #include "tests/gpu/support/volumetrics_host.h"
+#include "tests/support/voxels.h"
 #include "volumetrics/technique.h"
 
 namespace tyndall::test {
@@ -18,48 +18,10 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 
-/// Voxels by their coordinates.
-class Voxels {
-  public:
-    void set(glm::ivec3 v, float value) { values_[{v.x, v.y, v.z}] = value; }
-    [[nodiscard]] double at(glm::ivec3 v) const {
-        const auto found = values_.find({v.x, v.y, v.z});
-        return found == values_.end() ? 0.0 : double(found->second);
-    }
-    [[nodiscard]] double at(glm::dvec3 p, bool nearest) const {
-        if (nearest) return at(glm::ivec3(glm::floor(p + 0.5)));
-        const glm::dvec3 low = glm::floor(p), part = p - low;
-        double sum = 0;
-        for (int i = 0; i < 8; ++i) {
-            const glm::ivec3 corner(i & 1, i >> 1 & 1, i >> 2);
-            const glm::dvec3 weight = glm::mix(1.0 - part, part, glm::dvec3(corner));
-            sum += weight.x * weight.y * weight.z * at(glm::ivec3(low) + corner);
-        }
-        return sum;
-    }
-    [[nodiscard]] std::shared_ptr<const volumetrics::DensityGrid> grid() const {
-        struct Storage {
-            std::vector<glm::ivec3> bricks;
-            std::vector<float> values;
-        };
-        auto storage = std::make_shared<Storage>();
-        std::map<std::tuple<int, int, int>, std::size_t> found;
-        for (const auto& [key, value] : values_) {
-            const glm::ivec3 v(std::get<0>(key), std::get<1>(key), std::get<2>(key)), brick = v >> 3 << 3;
-            const auto [at, added] = found.try_emplace({brick.x, brick.y, brick.z}, storage->bricks.size());
-            if (added) {
-                storage->bricks.push_back(brick);
-                storage->values.resize(storage->values.size() + 512);
-            }
-            const glm::ivec3 in = v - brick;
-            storage->values[at->second * 512 + std::size_t(in.x + 8 * (in.y + 8 * in.z))] = value;
-        }
-        return volumetrics::density_grid(storage->bricks, storage->values, storage);
-    }
-
-  private:
-    std::map<std::tuple<int, int, int>, float> values_;
-};
+std::shared_ptr<const volumetrics::DensityGrid> module_grid(const Voxels& voxels) {
+    const std::shared_ptr<const DensityGrid> grid = voxels.grid();
+    return volumetrics::density_grid(grid->bricks, grid->values, grid);
+}
 
 glm::dmat4 placed(glm::dvec3 center, glm::dvec3 scale, double angle) {
     glm::dmat4 m = glm::mat4_cast(glm::angleAxis(angle, glm::normalize(glm::dvec3(1, 2, -0.5))));
@@ -117,7 +79,7 @@ class VolumetricsGrid : public GlTest, public testing::WithParamInterface<std::s
 };
 
 INSTANTIATE_TEST_SUITE_P(Techniques, VolumetricsGrid,
-                         testing::Values("ray_march", "epipolar", "froxel", "billboards", "reference"),
+                         testing::Values("ray_march", "froxel", "billboards", "reference"),
                          [](const auto& info) { return info.param; });
 
 TEST_P(VolumetricsGrid, VoxelsOfOneAreABox) {
@@ -129,8 +91,8 @@ TEST_P(VolumetricsGrid, VoxelsOfOneAreABox) {
         LocalMedium medium{.sigma_a = glm::vec3(0.4F)};
         const glm::dmat4 at_origin = placed({}, glm::dvec3(0.2, 0.3, 0.25), angle);
         const glm::dvec3 middle(at_origin * glm::dvec4(-8.5, 10.5, 6.5, 1));
-        set_grid(medium, voxels.grid(), placed(glm::dvec3(0, 0, -12) - middle, glm::dvec3(0.2, 0.3, 0.25), angle),
-                 true);
+        set_grid(medium, module_grid(voxels),
+                 placed(glm::dvec3(0, 0, -12) - middle, glm::dvec3(0.2, 0.3, 0.25), angle), true);
         LocalMedium box{.shape = Shape::box, .sigma_a = glm::vec3(0.4F)};
         box.center = {0, 0, -12};
         box.half_extent = {2.4F, 1.8F, 2.5F};
@@ -161,7 +123,7 @@ TEST_P(VolumetricsGrid, SparseVoxelsDimAsTheirSum) {
     }
     for (const bool nearest : {false, true}) {
         LocalMedium medium{.sigma_a = glm::vec3(2)};
-        set_grid(medium, voxels.grid(), placed({-2.3, -1, -14}, glm::dvec3(0.08, 0.1, 0.09), 0.3), nearest);
+        set_grid(medium, module_grid(voxels), placed({-2.3, -1, -14}, glm::dvec3(0.08, 0.1, 0.09), 0.3), nearest);
         for (const float fov : {0.06F, 0.6F}) {
             host.vertical_fov = fov;
             const Error off = error(voxels, medium);
@@ -238,7 +200,7 @@ class VolumetricsGridLight : public GlTest {
     }
     const std::string sun_pass = "volumetrics/grid_sun_volume";
     Voxels voxels = cloud();
-    std::shared_ptr<const volumetrics::DensityGrid> grid = voxels.grid();
+    std::shared_ptr<const volumetrics::DensityGrid> grid = module_grid(voxels);
     LocalMedium medium;
     StubHost host;
     Settings settings = plain_settings(8);
@@ -291,7 +253,7 @@ TEST_F(VolumetricsGridLight, LaterOrdersSeeHalfTheDepthAndScatterHalf) {
         for (int y = 0; y < 20; ++y)
             for (int x = 0; x < 20; ++x) ones.set({x, y, z}, 1);
     LocalMedium cube{.sigma_s = glm::vec3(0.5F), .sigma_a = glm::vec3(0.1F)};
-    set_grid(cube, ones.grid(), placed({-1.9, -1.9, -13.9}, glm::dvec3(0.2), 0), true);
+    set_grid(cube, module_grid(ones), placed({-1.9, -1.9, -13.9}, glm::dvec3(0.2), 0), true);
     host.local = {cube};
     host.eye = {0, 0, -10.5F};
     host.sun_direction = {0, -1, 0};

@@ -7,7 +7,7 @@
 #include <random>
 
 #include "engine/core/error.h"
-#include "support/voxels.h"
+#include "tests/support/voxels.h"
 
 namespace tyndall::reference {
 namespace {

@@ -9,7 +9,7 @@
 #include "reference/media.h"
 #include "reference/media_ray.h"
 #include "support/scene_of_triangles.h"
-#include "support/voxels.h"
+#include "tests/support/voxels.h"
 
 namespace tyndall::reference {
 namespace {

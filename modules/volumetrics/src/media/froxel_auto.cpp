@@ -34,8 +34,12 @@ double source(glm::vec3 sigma_s, glm::vec3 sigma_a, glm::vec3 emission) {
     return mean(sigma_s) + (mean(emission) > 0 ? mean(sigma_a) + 0.01 : 0);
 }
 
-/// Mean over the shape, as far as its height profile and noise go.
+/// Mean over the shape, as far as its height profile, noise and voxels go.
 double density(const LocalMedium& m) {
+    if (m.grid) {
+        const glm::dvec3 voxels(m.grid->upper - m.grid->lower + 1);
+        return m.grid->sum / (voxels.x * voxels.y * voxels.z);
+    }
     const double height = 2 * double(m.half_extent.y), falloff = m.height ? double(m.falloff) : 0;
     const double profile = falloff > 0 ? falloff / height * -std::expm1(-height / falloff) : 1;
     return profile * (1 - 0.5 * std::clamp(double(m.noise_amount), 0.0, 1.0));

@@ -58,7 +58,7 @@ shared::HeightMedium pack_height(const GlobalMedium& medium) {
             .sigma_s_rayleigh = {medium.rayleigh ? medium.sigma_s : glm::vec3(0), 0}};
 }
 
-/// Number `index` of the frame's grids.
+/// Its place among the grids, and from its frame to voxels, of which the lowest that holds something is 0.
 void pack_grid(const LocalMedium& medium, const Grids& grids, shared::LocalMedium& packed) {
     const glm::dmat4 to_world =
         glm::translate(glm::dmat4(1), glm::dvec3(medium.center)) * glm::mat4_cast(glm::dquat(medium.rotation));
