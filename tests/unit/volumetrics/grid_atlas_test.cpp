@@ -1,5 +1,5 @@
-// What the GPU is given of density grids, read back by its own rules: see modules/volumetrics/src/media/grid_atlas.h and
-// shaders/volumetrics/media/grid.glsl.
+// What the GPU is given of density grids, read back by its own rules: see
+// modules/volumetrics/src/media/grid_atlas.h and shaders/volumetrics/media/grid.glsl.
 #include "media/grid_atlas.h"
 
 #include <gtest/gtest.h>
@@ -74,7 +74,8 @@ Voxels lumps() {
     for (int lump = 0; lump < 12; ++lump) {
         const glm::ivec3 at(glm::vec3(unit(random), unit(random), unit(random)) * 60.0F - 30.0F);
         for (int i = 0; i < 80; ++i)
-            voxels.set(at + glm::ivec3(glm::vec3(unit(random), unit(random), unit(random)) * 6.0F), 3 * unit(random));
+            voxels.set(at + glm::ivec3(glm::vec3(unit(random), unit(random), unit(random)) * 6.0F),
+                       3 * unit(random));
     }
     return voxels;
 }
@@ -101,7 +102,8 @@ TEST(GridAtlas, LevelsHoldTheSameMassDownToOneBrick) {
     ASSERT_GE(levels(pages, 0), 3U);
     for (std::uint32_t k = 0; k < levels(pages, 0); ++k) {
         const LevelReader level(pages, 0, k);
-        EXPECT_NEAR(level.sum() * std::exp2(3.0 * k) * double(grid->greatest) / grid->sum, 1, 2e-3) << "level " << k;
+        EXPECT_NEAR(level.sum() * std::exp2(3.0 * k) * double(grid->greatest) / grid->sum, 1, 2e-3)
+            << "level " << k;
     }
     EXPECT_EQ(LevelReader(pages, 0, levels(pages, 0) - 1).size(), glm::ivec3(1));
 }
