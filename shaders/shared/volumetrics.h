@@ -59,7 +59,7 @@ struct LocalMedium {
     vec4 sigma_a_shape;    // rgb 1/m at density 1, w SHAPE_*
     vec4 emission_noise;   // rgb radiance per metre at density 1, w noise amount 0..1
     vec4 noise_height;     // x noise scale (m), z base (m), w falloff (m); falloff 0 = no height profile
-    uvec4 noise_seed;      // x; shape grid: y number of the grid, z 1: nearest
+    uvec4 seed_grid;       // x seed of the noise; shape grid: y its place in the page table, z 1: nearest, w tells grids apart
     vec4 grid_x;           // shape grid: of a point p of the shape, dot(grid_x, (p, 1)) is the x of its voxel
     vec4 grid_y;
     vec4 grid_z;

@@ -23,13 +23,13 @@ struct GridLevel {
     bool nearest;
 };
 
-int grid_level_count(LocalMedium medium) { return int(grid_word(uint(GRID_HEADER) * medium.noise_seed.y)); }
+int grid_level_count(LocalMedium medium) { return int(grid_word(uint(GRID_HEADER) * medium.seed_grid.y)); }
 
 GridLevel grid_level(LocalMedium medium, int level) {
-    uint header = uint(GRID_HEADER) * medium.noise_seed.y;
+    uint header = uint(GRID_HEADER) * medium.seed_grid.y;
     uint size = grid_word(header + 2u + 2u * uint(level));
     return GridLevel(grid_word(header + 1u + 2u * uint(level)), ivec3((uvec3(size) >> uvec3(0u, 10u, 20u)) & 1023u),
-                     exp2(-float(level)), medium.noise_seed.z != 0u);
+                     exp2(-float(level)), medium.seed_grid.z != 0u);
 }
 
 vec3 to_voxel(LocalMedium medium, vec4 p) { return vec3(dot(medium.grid_x, p), dot(medium.grid_y, p), dot(medium.grid_z, p)); }

@@ -28,7 +28,7 @@ bool has_grid(LocalMedium medium) { return false; }
 #endif
 
 float noise_density(LocalMedium medium, vec3 p) {
-    return media_noise(p, medium.noise_height.x, medium.emission_noise.w, medium.noise_seed.x);
+    return media_noise(p, medium.noise_height.x, medium.emission_noise.w, medium.seed_grid.x);
 }
 
 float local_density(LocalMedium medium, vec3 point) {

@@ -288,6 +288,26 @@ TEST_F(VolumetricsGridLight, LampsAreDimmedByTheVoxelsOnTheirWay) {
     }
 }
 
+// Of the same size, place and greatest value: nothing but the voxels tells them apart.
+TEST_F(VolumetricsGridLight, AnotherGridInTheSamePlaceMakesLampVolumesAnew) {
+    host.has_sun = false;
+    host.lights = {point_light({0, 6, -12}, 1, 40)};
+    Voxels ones, hollow;
+    for (int z = 0; z < 20; ++z)
+        for (int y = 0; y < 20; ++y)
+            for (int x = 0; x < 20; ++x) {
+                ones.set({x, y, z}, 1);
+                if (y == 0 || y == 19 || x == 0 || x == 19 || z == 0 || z == 19) hollow.set({x, y, z}, 1);
+            }
+    const auto below = [&](const Voxels& of) {
+        set_grid(medium, module_grid(of), placed({-2, -2.5, -14}, glm::dvec3(0.2, 0.25, 0.2), 0));
+        host.local = {medium};
+        return probe.transmittance(host, settings, {glm::vec3(0, -4, -12)}, 0)[0].g;
+    };
+    EXPECT_NEAR(below(ones), std::exp(-0.5 * 5), 0.03);
+    EXPECT_NEAR(below(hollow), std::exp(-0.5 * 0.5), 0.03);
+}
+
 TEST_F(VolumetricsGridLight, OutOfViewAndWithItsShadowItCostsNothingAndIsKept) {
     expect_sun(0.02);
     const LocalMedium behind_eye = [&] {

@@ -81,7 +81,7 @@ TEST(VolumetricsMedia, NoiseSeedsKeepAllTheirBits) {
     for (const int seed : {16777217, 2147483647, -1}) {
         inputs.local = {{.center = {0, 0, -5}, .sigma_a = glm::vec3(1), .noise_scale = 1, .noise_amount = 1}};
         inputs.local[0].noise_seed = seed;
-        EXPECT_EQ(gather_media(inputs, {}).local.at(0).noise_seed.x, static_cast<unsigned>(seed));
+        EXPECT_EQ(gather_media(inputs, {}).local.at(0).seed_grid.x, static_cast<unsigned>(seed));
     }
 }
 

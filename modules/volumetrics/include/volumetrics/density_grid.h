@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <glm/glm.hpp>
 #include <memory>
 #include <span>
@@ -19,6 +20,7 @@ struct DensityGrid {
     glm::ivec3 lower{0}, upper{-1};      ///< of the voxels > 0, both included
     float greatest = 0;                  ///< value
     double sum = 0;                      ///< of all values
+    std::uint32_t number = 0;            ///< no other grid has it
 };
 
 /// Finds bounds, greatest value and sum. Throws Error where the spans do not fit each other or hold what they must

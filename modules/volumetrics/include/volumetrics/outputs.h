@@ -29,8 +29,8 @@ struct Outputs {
 /// shaders/volumetrics/light/light_transmittance.glsl where `any` says so.
 struct LightTransmittance {
     bool any = false;
-    int light_volumes =
-        0;  ///< value of the define LIGHT_VOLUMES: 1: local media dim some light, 2: density grids too
+    /// Value of the define LIGHT_VOLUMES: local media dim some light (1), density grids among them (2).
+    int light_volumes = 0;
     TextureRef sun_volume, grid_sun_volume, lamp_volumes;  ///< sampled there, bound by Volumetrics::bind_uniforms
 };
 

@@ -71,7 +71,7 @@ SettingsTable& growing_settings_table() {
                      {"scattering_orders", "Scattering orders",
                       "Of sunlight in density grids: 1 is scattered once, which is what the references have; more "
                       "make thick clouds bright, each as if half as much matter scattered half as far."},
-                     1, 8, Effect::uniform, Scale::linear)
+                     1, 8, Effect::uniform)
             .choice(in(&S::noise, &NoiseSettings::kind),
                     {"noise", "Noise",
                      "Where in its segments a pixel samples: the middle; the Bayer matrix; white noise, of each "

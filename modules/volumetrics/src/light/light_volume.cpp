@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <functional>
 
 #include "shaders/shared/bindings.h"
 
@@ -32,6 +33,10 @@ void dispatch(const gl::Program& program, glm::ivec3 origin, glm::ivec3 size, gl
     glDispatchCompute(groups.x, groups.y, groups.z);
 }
 
+bool is_grid(const AttenuatingMedium& medium) {
+    return medium.medium.shape == Shape::grid;
+}
+
 bool is_active(const GridSunVolumes& volumes) {
     return volumes.active();
 }
@@ -43,8 +48,7 @@ bool is_active(const auto& volume) {
 std::vector<shared::LocalMedium> packed(const FrameMedia& media) {
     std::vector<shared::LocalMedium> all;
     for (const AttenuatingMedium& medium : media.attenuating) all.push_back(medium.packed);
-    for (const AttenuatingMedium& medium : media.attenuating) {
-        if (!medium.medium.grid) continue;
+    for (const AttenuatingMedium& medium : dimming_grids(media)) {
         all.push_back(medium.packed);
         all.back().sigma_s_g = {1, 1, 1, 0};
         all.back().sigma_a_shape = {0, 0, 0, all.back().sigma_a_shape.w};
@@ -53,6 +57,14 @@ std::vector<shared::LocalMedium> packed(const FrameMedia& media) {
 }
 
 }  // namespace
+
+std::span<const AttenuatingMedium> dimming_shapes(const FrameMedia& media) {
+    return {media.attenuating.begin(), std::ranges::find_if(media.attenuating, is_grid)};
+}
+
+std::span<const AttenuatingMedium> dimming_grids(const FrameMedia& media) {
+    return {std::ranges::find_if(media.attenuating, is_grid), media.attenuating.end()};
+}
 
 gl::Texture light_volume_texture(glm::ivec3 size, bool chromatic, const char* label) {
     gl::Texture texture({.kind = gl::TextureKind::d3,
@@ -103,7 +115,7 @@ void LightVolumes::prepare(const Inputs& inputs, const Settings& settings, Frame
         const glm::vec4 no_lamp[2] = {glm::vec4(-1), glm::vec4(0)};
         no_lamps_ = gl::Buffer::of(std::span<const glm::vec4>(no_lamp), "volumetrics lamp volume table of none");
     }
-    std::ranges::stable_partition(media.attenuating, [](const AttenuatingMedium& m) { return !m.medium.grid; });
+    std::ranges::stable_partition(media.attenuating, std::not_fn(is_grid));
     grid_suns_.prepare(inputs, settings, media);
     if (media.attenuating.empty()) return release_volumes(media);
     sun_.prepare(inputs, settings, media);

@@ -57,6 +57,10 @@ class SunVolume {
     bool stale_ = true;
 };
 
+/// The media that dim light, which LightVolumes has ordered: those that are no density grids, then those that are.
+[[nodiscard]] std::span<const AttenuatingMedium> dimming_shapes(const FrameMedia& media);
+[[nodiscard]] std::span<const AttenuatingMedium> dimming_grids(const FrameMedia& media);
+
 /// Two unit directions across light, and its own.
 [[nodiscard]] glm::dmat3 sun_axes(glm::dvec3 direction);
 

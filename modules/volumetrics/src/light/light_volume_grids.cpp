@@ -30,9 +30,7 @@ bool GridSunVolumes::stale() const {
 }
 
 void GridSunVolumes::prepare(const Inputs& inputs, const Settings& settings, FrameMedia& media) {
-    const auto first = std::ranges::find_if(
-        media.attenuating, [](const AttenuatingMedium& m) { return m.medium.shape == Shape::grid; });
-    const std::span<const AttenuatingMedium> grids(first, media.attenuating.end());
+    const std::span<const AttenuatingMedium> grids = dimming_grids(media);
     active_ = inputs.has_sun && !grids.empty();
     if (!active_ && media.grids.empty()) return release();
     if (!active_) return;

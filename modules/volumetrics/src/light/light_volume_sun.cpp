@@ -44,10 +44,7 @@ bool same(const std::vector<shared::LocalMedium>& before, std::span<const Attenu
 }  // namespace
 
 void SunVolume::prepare(const Inputs& inputs, const Settings& settings, FrameMedia& media) {
-    const auto first_grid = std::ranges::find_if(media.attenuating, [](const AttenuatingMedium& m) {
-        return m.medium.shape == Shape::grid;  // which come last
-    });
-    const std::span<const AttenuatingMedium> dimming(media.attenuating.begin(), first_grid);
+    const std::span<const AttenuatingMedium> dimming = dimming_shapes(media);
     if (!inputs.has_sun || dimming.empty()) return release();
     const int across = settings.light_volumes.sun_size;
     const glm::ivec3 size{across, across, std::max(across / 2, 2)};

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <atomic>
 #include <cmath>
+#include <limits>
 #include <set>
 #include <tuple>
 #include <utility>
@@ -29,6 +31,8 @@ std::shared_ptr<const DensityGrid> density_grid(std::span<const glm::ivec3> bric
     if (values.size() != bricks.size() * DensityGrid::brick_size)
         throw Error(fmt::format("volumetrics: density grid of {} bricks with {} values, {} expected", bricks.size(),
                                 values.size(), bricks.size() * DensityGrid::brick_size));
+    static std::atomic<std::uint32_t> last = 0;
+    grid->number = ++last;
     grid->lower = glm::ivec3(std::numeric_limits<int>::max());
     grid->upper = glm::ivec3(std::numeric_limits<int>::min());
     std::set<std::tuple<int, int, int>> seen;

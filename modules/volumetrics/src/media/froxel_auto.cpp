@@ -36,7 +36,7 @@ double source(glm::vec3 sigma_s, glm::vec3 sigma_a, glm::vec3 emission) {
 
 /// Mean over the shape, as far as its height profile, noise and voxels go.
 double density(const LocalMedium& m) {
-    if (m.grid) {
+    if (m.shape == Shape::grid) {
         const glm::dvec3 voxels(m.grid->upper - m.grid->lower + 1);
         return m.grid->sum / (voxels.x * voxels.y * voxels.z);
     }

@@ -69,8 +69,9 @@ void pack_grid(const LocalMedium& medium, const Grids& grids, shared::LocalMediu
     packed.grid_y = rows[1];
     packed.grid_z = rows[2];
     packed.grid_value.x = medium.grid->greatest;
-    packed.noise_seed.y = static_cast<unsigned>(std::ranges::find(grids, medium.grid) - grids.begin());
-    packed.noise_seed.z = medium.nearest ? 1 : 0;
+    packed.seed_grid.y = static_cast<unsigned>(std::ranges::find(grids, medium.grid) - grids.begin());
+    packed.seed_grid.z = medium.nearest ? 1 : 0;
+    packed.seed_grid.w = medium.grid->number;
 }
 
 shared::LocalMedium pack_local(const LocalMedium& medium, const Grids& grids) {
@@ -80,8 +81,8 @@ shared::LocalMedium pack_local(const LocalMedium& medium, const Grids& grids) {
     packed.sigma_a_shape = {medium.sigma_a, packed.sigma_a_shape.w};
     packed.emission_noise = {medium.emission, noise ? medium.noise_amount : 0.0F};
     packed.noise_height = {medium.noise_scale, 0, medium.base, medium.height ? medium.falloff : 0.0F};
-    packed.noise_seed.x = medium.noise_seed;
-    if (medium.grid) pack_grid(medium, grids, packed);
+    packed.seed_grid.x = medium.noise_seed;
+    if (medium.shape == Shape::grid) pack_grid(medium, grids, packed);
     return packed;
 }
 
@@ -126,7 +127,7 @@ void gather_grids(const Inputs& inputs, FrameMedia& media) {
 void add_local(const Inputs& inputs, bool unseen, FrameMedia& media) {
     bool seen = media.has_global;
     for (const LocalMedium& medium : inputs.local) {
-        if (does_nothing(medium) || (medium.grid && !media.uses_grids)) continue;
+        if (does_nothing(medium) || (medium.shape == Shape::grid && !media.uses_grids)) continue;
         const bool empty = is_empty(medium);
         const ViewBounds bounds = empty ? ViewBounds() : view_bounds(medium, inputs);
         seen |= bounds.in_view();
@@ -142,7 +143,7 @@ void add_local(const Inputs& inputs, bool unseen, FrameMedia& media) {
 void add_attenuating(const Inputs& inputs, FrameMedia& media) {
     for (const LocalMedium& medium : inputs.local) {
         if (is_zero(medium.sigma_s + medium.sigma_a) || is_empty(medium)) continue;
-        if (medium.grid && !media.uses_grids) continue;
+        if (medium.shape == Shape::grid && !media.uses_grids) continue;
         AttenuatingMedium added{medium, pack_local(medium, media.grids)};
         added.packed.sigma_s_g.w = 0;
         added.packed.emission_noise = {0, 0, 0, added.packed.emission_noise.w};
