@@ -8,7 +8,8 @@
 namespace tyndall::reference {
 namespace {
 
-/// Adds the u in `part` at which a texture coordinate, `from` at u = 0 and `to` at u = 1, comes to a border of texels.
+/// Adds the u in `part` at which a texture coordinate, `from` at u = 0 and `to` at u = 1, comes to a border of
+/// texels.
 void add_borders(double from, double to, int texels, bool nearest, Interval part, std::vector<double>& borders) {
     constexpr double most = 16;
     const double start = from * texels - (nearest ? 0 : 0.5), slope = (to - from) * texels;
