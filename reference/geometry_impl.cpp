@@ -91,10 +91,11 @@ Geometry::Impl::Impl(const Scene& from, bool with_shadows) : scene(from), shadow
     build_embree();
     if (!shadows) return;
     std::vector<Caster> list;
-    for (const Triangle& triangle : triangles) {
+    for (std::size_t index = 0; index < triangles.size(); ++index) {
+        const Triangle& triangle = triangles[index];
         if (!triangle.cast_shadow) continue;
         const Material& m = material(triangle);
-        Caster caster{triangle.corner, 0, {}, {}, m.alpha_mask ? &m : nullptr};
+        Caster caster{triangle.corner, static_cast<std::uint32_t>(index), {}, {}, m.alpha_mask ? &m : nullptr};
         for (std::size_t i = 0; i < 3; ++i) {
             caster.uv[i] = vertex(triangle, i).uv;
             caster.alpha[static_cast<int>(i)] = vertex(triangle, i).color.a;

@@ -14,7 +14,7 @@ namespace tyndall::reference {
 /// What casts shadows, to the slicer.
 struct Caster {
     std::array<dvec3, 3> corner;
-    std::uint32_t triangle;  ///< its index where it comes from
+    std::uint32_t triangle;  ///< of Geometry::Impl::triangles or glass
     std::array<dvec2, 3> uv;
     dvec3 alpha;           ///< of the corners' colours
     const Material* mask;  ///< null: opaque

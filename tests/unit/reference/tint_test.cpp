@@ -75,8 +75,7 @@ TEST(Tint, SharedEdgesAndCornersCountOnce) {
     World w;
     Mesh& mesh = red.mesh(w);
     for (int x = -4; x < 4; ++x)
-        for (int z = -4; z < 4; ++z)
-            World::quad(mesh, {float(x), 2, float(z)}, {1, 0, 0}, {0, 0, 1});
+        for (int z = -4; z < 4; ++z) World::quad(mesh, {float(x), 2, float(z)}, {1, 0, 0}, {0, 0, 1});
     const Geometry geometry(w.scene, true);
     for (int i = -12; i <= 12; ++i)
         for (int k = -12; k <= 12; ++k) {

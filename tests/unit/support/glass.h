@@ -22,7 +22,7 @@ struct Glass {
         return w.mesh(static_cast<int>(w.scene.materials.size()) - 1);
     }
 };
-inline const Glass red{{1, 0.5f, 0.25f, 0.5f}, 0.75f}, blue{{0.125f, 0.25f, 1, 1}, 0.5f}, grey{{0.5f, 1, 1, 0.25f}, 0},
-    clear{{0.1f, 0.2f, 0.3f, 0}, 0.5f}, black{{0.1f, 0.2f, 0.3f, 1}, 0};
+inline const Glass red{{1, 0.5f, 0.25f, 0.5f}, 0.75f}, blue{{0.125f, 0.25f, 1, 1}, 0.5f},
+    grey{{0.5f, 1, 1, 0.25f}, 0}, clear{{0.1f, 0.2f, 0.3f, 0}, 0.5f}, black{{0.1f, 0.2f, 0.3f, 1}, 0};
 
 }  // namespace tyndall::reference::test
