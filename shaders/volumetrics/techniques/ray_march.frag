@@ -2,7 +2,8 @@
 // Along a pixel's view ray, per segment [a, b]:
 //     L += T(0,a) int_a^b T(a,t) (sigma_s sum_i p V_i T_i E_i + e) dt,    T(0,b) = T(0,a) exp(-optical depth of [a,b])
 // Media, transmittances and the inverse square of lamps are integrated in closed form, or nearly; only visibility is sampled,
-// once a segment, at an offset that differs from pixel to pixel; EPIPOLAR: without noise, by the trees of epipolar.glsl.
+// once a segment, at an offset that differs from pixel to pixel; EPIPOLAR: without noise, by the trees of epipolar.glsl,
+// 2: but the sun's, which epipolar_unwarp.frag gives for the whole ray.
 //
 // PARTS: the unshadowed light of sun and lamps, without noise, and the visible share of it are stored apart
 // (relight.frag), so that only the latter is filtered.
@@ -17,11 +18,15 @@
 #endif
 #define SUN_APART (PARTS == 1 && HAS_SUN == 1)
 #define LAMPS_APART (PARTS == 1 && LAMPS == 2)
+#define SUMS_APART (PARTS == 1 || LOCAL_MEDIA == 2 || EPIPOLAR > 0)
+// May draw the share of the sun alone, of other rays than all pixels'.
+#define OTHER_RAYS (EPIPOLAR == 1 && HAS_SUN == 1 && LAMPS == 0)
 
 #include "shaders/volumetrics/reconstruction/noise_offset.glsl"
 #include "shaders/volumetrics/light/part.glsl"
 #include "shaders/volumetrics/light/segment_light.glsl"
 #include "shaders/lib/pack.glsl"
+#include "shaders/volumetrics/light/epipolar_rays.glsl"
 #if LOCAL_MEDIA == 2
 #include "shaders/volumetrics/light/local_segment.glsl"
 #endif
@@ -47,7 +52,7 @@ layout(location = LAMPS_LOCATION + 1) out vec4 out_lamps_share;
 // Half of the smallest half-float number: a transmittance of this is stored as 0, and nothing behind it shows.
 const float OPAQUE = 2.98e-8;
 
-#if PARTS || LOCAL_MEDIA == 2
+#if SUMS_APART
 Part sun_light = Part(vec3(0.0), vec3(0.0));
 Part lamp_light = Part(vec3(0.0), vec3(0.0));
 #endif
@@ -217,7 +222,7 @@ void march_segment(Ray ray, float a, float b, float offset, inout Extinction sun
     Optics optics = medium_optics(m, path_length);
     Segment segment = Segment(a, b, offset, m.anisotropy, volumetrics.homogeneous_sigma_s.rgb,
                               volumetrics.homogeneous_sigma_t.rgb);
-#if PARTS
+#if SUMS_APART
     SegmentLight light = segment_light_parts(ray, segment, m, optics, ambient, sun_front);
     march.radiance += march.transmittance * light.diffuse;
     sun_light.visible += march.transmittance * light.sun_visibility * light.sun;
@@ -232,9 +237,12 @@ void march_segment(Ray ray, float a, float b, float offset, inout Extinction sun
 #endif
 
 void main() {
-    vec2 uv = screen_place(gl_FragCoord.xy);
-    Ray ray = view_ray(uv);
-    float depth = texelFetch(depth_texture, ivec2(gl_FragCoord.xy), 0).r;
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    Ray ray = view_ray(screen_place(gl_FragCoord.xy));
+#if OTHER_RAYS
+    if (!chosen_ray(pixel, ray)) discard;
+#endif
+    float depth = texelFetch(depth_texture, pixel, 0).r;
     count_work(WORK_TEXTURE_FETCHES, 1u);
     float surface = ray_distance_from_view_depth(view_depth_from_buffer(depth, volumetrics.eye.w), ray.forward_cosine);
     float begin = 0.0;
@@ -259,7 +267,7 @@ void main() {
 
     March march = March(vec3(0.0), Extinction(1.0));
     Extinction sun_front = Extinction(0.0);
-#if EPIPOLAR && HAS_SUN
+#if EPIPOLAR == 1 && HAS_SUN
     sun_epipolar_ray = epipolar_ray(0, ray.direction);
 #endif
 #if HAS_SUN
@@ -289,11 +297,17 @@ void main() {
     }
     if (volumetrics.has_global != 0u && surface > end && end >= volumetrics.max_distance)
         march_tail(ray, end, surface, is_background(depth), ambient, sun_front, march);
-#if LOCAL_MEDIA == 2 && PARTS == 0
+#if EPIPOLAR == 2
+    sun_light.visible = sun_light.whole * unwarped_share(pixel);
+#endif
+#if SUMS_APART && PARTS == 0
     march.radiance += sun_light.visible + lamp_light.visible;
 #endif
 
     out_scattering = round_to_half(vec4(march.radiance, average(march.transmittance)));
+#if OTHER_RAYS
+    if (rays != RAYS_OF_PIXELS) out_scattering = visible_share(sun_light);
+#endif
 #if CHROMATIC
     out_transmittance = round_to_half(vec4(march.transmittance, average(march.transmittance)));
 #endif

@@ -5,11 +5,14 @@
 #include "engine/gl/texture.h"
 #include "frame/resources.h"
 #include "media/noise_volume.h"
+#include "shaders/shared/bindings.h"
 #include "techniques/techniques.h"
 #include "volumetrics/frame.h"
 
 // The march of ray_march.frag without noise: what a light reaches of each segment comes from trees over rectified
-// shadow maps (shaders/volumetrics/light/epipolar.glsl), so that segments are no finer than media ask for.
+// shadow maps (shaders/volumetrics/light/epipolar.glsl), so that segments are no finer than media ask for. With
+// samples the sun's share of whole rays is taken at few samples along its lines (epipolar_samples.glsl), and pixels
+// are given it from there.
 
 namespace tyndall::volumetrics {
 namespace {
@@ -20,14 +23,35 @@ const ProgramDesc lines_program{.name = "volumetrics/epipolar_lines",
                                 .valid = {}};
 const ProgramRegistry::Registration lines_registration(lines_program);
 
+ProgramDesc share_program(const std::string& name, GLenum stage, const std::string& file) {
+    ProgramDesc desc{.name = "volumetrics/" + name,
+                     .stages = {{stage, "shaders/volumetrics/light/" + file}},
+                     .axes = {{"COUNT_WORK", {0, 1}}},
+                     .valid = {}};
+    if (stage == GL_FRAGMENT_SHADER)
+        desc.stages.insert(desc.stages.begin(), {GL_VERTEX_SHADER, "shaders/lib/fullscreen.vert"});
+    return desc;
+}
+const ProgramDesc sources_program = share_program("epipolar_sources", GL_COMPUTE_SHADER, "epipolar_sources.comp");
+const ProgramRegistry::Registration sources_registration(sources_program);
+const ProgramDesc interpolate_program =
+    share_program("epipolar_interpolate", GL_FRAGMENT_SHADER, "epipolar_interpolate.frag");
+const ProgramRegistry::Registration interpolate_registration(interpolate_program);
+const ProgramDesc unwarp_program = share_program("epipolar_unwarp", GL_FRAGMENT_SHADER, "epipolar_unwarp.frag");
+const ProgramRegistry::Registration unwarp_registration(unwarp_program);
+
+/// EPIPOLAR 2, whose sunlight is unshadowed, has no program of its own for height media alone.
 bool is_valid(const Permutation& p) {
-    return is_grid_permutation(p) && (p.at("HEIGHT_MEDIA") == MAX_HEIGHT_MEDIA || p.at("LOCAL_MEDIA") == 1);
+    if (!is_grid_permutation(p)) return false;
+    const bool heights = p.at("HEIGHT_MEDIA") == MAX_HEIGHT_MEDIA, local = p.at("LOCAL_MEDIA") == 2;
+    if (p.at("EPIPOLAR") == 2 && (p.at("HAS_SUN") == 0 || heights != local)) return false;
+    return heights || !local;
 }
 
 const ProgramDesc program{.name = "volumetrics/epipolar",
                           .stages = {{GL_VERTEX_SHADER, "shaders/volumetrics/techniques/view_ray.vert"},
                                      {GL_FRAGMENT_SHADER, "shaders/volumetrics/techniques/ray_march.frag"}},
-                          .axes = {{"EPIPOLAR", {1}},
+                          .axes = {{"EPIPOLAR", {1, 2}},
                                    {"HEIGHT_MEDIA", {0, MAX_HEIGHT_MEDIA}},
                                    {"LOCAL_MEDIA", {1, 2}},  // 1: none is in view
                                    {"GRIDS", {0, 1}},
@@ -83,6 +107,89 @@ TextureRef add_lines(Frame& frame, const EpipolarPlan& plan, TextureRef table) {
     return nodes;
 }
 
+const char* const share_passes[] = {"volumetrics/epipolar_sources", "volumetrics/epipolar_walk",
+                                    "volumetrics/epipolar_interpolate", "volumetrics/epipolar_unwarp",
+                                    "volumetrics/epipolar_fix_up"};
+
+enum class Rays { pixels, samples, pixels_left };  // of epipolar_rays.glsl
+
+/// Adds passes that draw ray_march.frag.
+struct March {
+    Frame& frame;
+    TextureRef table, nodes;
+
+    void add(const std::string& name, Rays rays, const Permutation& own, const std::vector<TextureRef>& more,
+             const std::vector<TextureRef*>& targets) {
+        const bool local = !frame.media.local.empty();
+        const bool heights = local || height_media_axis(frame.media) > 0;
+        Permutation permutation{{"EPIPOLAR", 1},
+                                {"HEIGHT_MEDIA", heights ? MAX_HEIGHT_MEDIA : 0},
+                                {"LOCAL_MEDIA", local ? 2 : 1},
+                                {"LAMPS", frame.inputs.has_lamps ? 2 : 0}};
+        for (const auto& [axis, value] : own) permutation[axis] = value;
+        if (permutation["EPIPOLAR"] == 2 && heights) permutation["LOCAL_MEDIA"] = 2;
+        std::vector<Pass::Source> sources{{frame.depth}, {noise_volume(frame), true}, {table}, {nodes}};
+        sources.resize(UNIT_EPIPOLAR);
+        for (const TextureRef texture : more) sources.push_back({texture});
+        frame.add({.name = name,
+                   .program = frame.program(program, permutation),
+                   .sources = sources,
+                   .targets = targets,
+                   .lit = true,
+                   .light_volumes = true,
+                   .local_media = true,
+                   .set = [rays, to_pixel = direction_to_pixel(frame.inputs, frame.size),
+                           tree = frame.settings.epipolar.tree](const PassContext&, const gl::Program& march) {
+                       march.set("rays", static_cast<int>(rays));
+                       march.set("to_pixel", to_pixel);
+                       march.set("coarsest_level", tree ? 31 : 0);
+                   }});
+    }
+};
+
+/// The shares of sunlight of all pixels, from samples along the sun's lines; and of those pixels that have none.
+struct Shares {
+    TextureRef unwarped, of_pixels_left;
+};
+
+Shares add_shares(Frame& frame, March& march, const EpipolarLines& sun) {
+    constexpr int block = 64;  // the pool keeps what earlier frames had
+    const auto up = [](int n) { return (n + block - 1) / block * block; };
+    const auto create = [&](const std::string& name, GLenum format) {
+        return frame.passes.create("volumetrics/" + name,
+                                   {.format = format, .size = {up(sun.samples), up(sun.lines), 1}});
+    };
+    const auto uniforms = [to_pixel = direction_to_pixel(frame.inputs, frame.size),
+                           settings = frame.settings.epipolar](const PassContext&, const gl::Program& shares) {
+        shares.set("to_pixel", to_pixel);
+        shares.set("tolerance", settings.tolerance);
+        shares.set("sample_step", settings.step);
+    };
+    TextureRef sources = create("epipolar_sources", GL_RG16UI);
+    frame.add({.name = share_passes[0],
+               .program = frame.program(sources_program),
+               .sources = {{frame.depth}, {march.table}},
+               .images = {{&sources}},
+               .set = uniforms,
+               .groups = {sun.lines, 1, 1}});
+    TextureRef asked = create("epipolar_asked", GL_RGBA16F), samples = create("epipolar_samples", GL_RGBA16F);
+    const Permutation sun_alone{{"CHROMATIC", 0}, {"LAMPS", 0}};
+    march.add(share_passes[1], Rays::samples, sun_alone, {sources}, {&asked});
+    frame.add({.name = share_passes[2],
+               .program = frame.program(interpolate_program),
+               .sources = {{frame.depth}, {march.table}, {sources}, {asked}},
+               .targets = {&samples},
+               .set = uniforms});
+    Shares shares{frame.create("volumetrics/epipolar_unwarped"), frame.create("volumetrics/epipolar_fixed_up")};
+    frame.add({.name = share_passes[3],
+               .program = frame.program(unwarp_program),
+               .sources = {{frame.depth}, {march.table}, {samples}},
+               .targets = {&shares.unwarped},
+               .set = uniforms});
+    march.add(share_passes[4], Rays::pixels_left, sun_alone, {{}, shares.unwarped}, {&shares.of_pixels_left});
+    return shares;
+}
+
 Estimate add(Frame& frame) {
     if (!frame.inputs.has_shadow_maps) {
         for (const char* name : {"volumetrics/epipolar_lines", "volumetrics/epipolar"})
@@ -91,20 +198,18 @@ Estimate add(Frame& frame) {
     }
     const EpipolarPlan plan = plan_epipolar(frame.inputs, frame.settings, frame.size);
     const TextureRef table = upload_table(frame, plan);
-    const TextureRef nodes = add_lines(frame, plan, table);
+    March march{frame, table, add_lines(frame, plan, table)};
     Estimate estimate = frame.create_estimate();
-    const bool local = !frame.media.local.empty();
-    const bool heights = local || height_media_axis(frame.media) > 0;
-    frame.add({.name = "volumetrics/epipolar",
-               .program = frame.program(program, {{"EPIPOLAR", 1},
-                                                  {"HEIGHT_MEDIA", heights ? MAX_HEIGHT_MEDIA : 0},
-                                                  {"LOCAL_MEDIA", local ? 2 : 1},
-                                                  {"LAMPS", frame.inputs.has_lamps ? 2 : 0}}),
-               .sources = {{frame.depth}, {noise_volume(frame), true}, {table}, {nodes}},
-               .targets = {&estimate.scattering, &estimate.transmittance},
-               .lit = true,
-               .light_volumes = true,
-               .local_media = true});
+    const std::vector<TextureRef*> targets{&estimate.scattering, &estimate.transmittance};
+    if (frame.inputs.has_sun && samples_lines(frame.settings)) {
+        const Shares shares = add_shares(frame, march, plan.lights.front());
+        march.add("volumetrics/epipolar", Rays::pixels, {{"EPIPOLAR", 2}}, {shares.unwarped, shares.of_pixels_left},
+                  targets);
+    } else {
+        for (const char* name : share_passes)
+            frame.skip(name, frame.inputs.has_sun ? "epipolar_step is 1" : "no sun");
+        march.add("volumetrics/epipolar", Rays::pixels, {}, {}, targets);
+    }
     return estimate;
 }
 
@@ -114,7 +219,9 @@ TechniqueDesc epipolar() {
     return {.name = "epipolar",
             .help = "Marches with shares of light from min/max trees along epipolar lines: sharp, without noise.",
             .settings = "epipolar_",
-            .passes = {"volumetrics/epipolar_lines", "volumetrics/noise_volume", "volumetrics/epipolar"},
+            .passes = {"volumetrics/epipolar_lines", "volumetrics/noise_volume", "volumetrics/epipolar_sources",
+                       "volumetrics/epipolar_walk", "volumetrics/epipolar_interpolate",
+                       "volumetrics/epipolar_unwarp", "volumetrics/epipolar_fix_up", "volumetrics/epipolar"},
             .traits = {.sampling = Sampling::exact, .any_resolution = true},
             .add = add};
 }

@@ -1,0 +1,49 @@
+// Which samples of a line of the sun ask the trees, and for each other one the two of them between which it is
+// interpolated: one group for each line. Every `sample_step`-th asks, and so do both sides of a break of depth, that is where the
+// inverse distance, linear along a plane, bends. Chosen by bits, as in "Real-Time Volumetric Shadows using 1D Min-Max
+// Mipmaps" and its implementation by Yusov.
+#include "shaders/volumetrics/light/epipolar_samples.glsl"
+
+const int MOST_SAMPLES = 2048;
+const int THREADS = 64;
+const int BITS = MOST_SAMPLES / THREADS;  // samples of a thread
+layout(local_size_x = THREADS) in;
+layout(rg16ui, binding = 0) writeonly uniform uimage2D sources;
+layout(binding = 0) uniform sampler2D depth_texture;
+layout(binding = 1) uniform sampler2D table;
+uniform int sample_step;
+
+shared float surface[MOST_SAMPLES];  // inverse distance, 1/m
+
+float inverse_at(int i) { return i < 0 || i >= MOST_SAMPLES ? NOT_SEEN : surface[i]; }
+
+bool bends(int i) {
+    float before = inverse_at(i - 1);
+    float behind = inverse_at(i + 1);
+    if (before == NOT_SEEN || behind == NOT_SEEN) return true;
+    return abs(before + behind - 2.0 * surface[i]) > same_surface(surface[i]);
+}
+
+void main() {
+    EpipolarLines lines = epipolar_lines(table, 0);
+    int line = int(gl_WorkGroupID.x);
+    int begin = BITS * int(gl_LocalInvocationID.x);
+    int end = min(begin + BITS, lines.samples);
+    for (int i = begin; i < begin + BITS; ++i) {
+        vec3 direction = sample_direction(lines, ivec2(i, line));
+        ivec2 pixel = i < end ? seen_pixel(direction) : ivec2(-1);
+        surface[i] = pixel.x < 0 ? NOT_SEEN : inverse_distance(texelFetch(depth_texture, pixel, 0).r, direction);
+    }
+    barrier();
+    uint asks = 0u;
+    for (int i = begin; i < end; ++i)
+        if (surface[i] != NOT_SEEN && ((i & (sample_step - 1)) == 0 || bends(i))) asks |= 1u << (i - begin);
+    // The first sample of the next thread's part asks, too, where it is seen.
+    for (int i = begin; i < end; ++i) {
+        uint left = asks & (0xffffffffu >> (31 - (i - begin)));
+        uint right = asks & (0xffffffffu << (i - begin));
+        uvec2 source = uvec2(begin + findMSB(left), right == 0u ? begin + BITS : begin + findLSB(right));
+        imageStore(sources, ivec2(i, line), uvec4(surface[i] == NOT_SEEN ? uvec2(0xffffu) : source, 0u, 0u));
+    }
+    flush_work();
+}
