@@ -69,13 +69,16 @@ int epipolar_level(EpipolarRay ray, int cell, int last) {
 float epipolar_share(EpipolarRay ray, Gathering light) {
     vec2 places = vec2(epipolar_place(ray, light.begin), epipolar_place(ray, light.end));
     int begin = min(int(places.x), ray.cells - 1);
-    int last = clamp(int(places.y), begin, ray.cells - 1);
+    int last = clamp(int(places.y - 0.5), begin, ray.cells - 1);
     int cell = begin;
+    // The only cell may have its middle beyond the part's end, as near the axis of parallel light.
+    float slope = ray.slope;
+    if (begin == last && ray.distance == 0.0) slope *= 0.5 * (places.x + places.y) / (float(begin) + 0.5);
     if (coarsest_level > 0) {
         vec2 whole = texelFetch(epipolar_nodes, epipolar_texel(ray.root + 1), 0).xy;
         count_work(WORK_TREE_NODES, 1u);
-        if (ray.slope >= whole.y) return 1.0;
-        if (ray.slope < whole.x) return 0.0;
+        if (slope >= whole.y) return 1.0;
+        if (slope < whole.x) return 0.0;
     }
     int level = epipolar_level(ray, cell, last);
     bool lit = false;
@@ -83,8 +86,8 @@ float epipolar_share(EpipolarRay ray, Gathering light) {
     while (cell <= last) {
         vec2 node = texelFetch(epipolar_nodes, epipolar_texel(ray.root + ((ray.cells + cell) >> level)), 0).xy;
         count_work(WORK_TREE_NODES, 1u);
-        bool all_lit = ray.slope >= node.y;
-        if (!all_lit && ray.slope >= node.x) {
+        bool all_lit = slope >= node.y;
+        if (!all_lit && slope >= node.x) {
             --level;
             continue;
         }
