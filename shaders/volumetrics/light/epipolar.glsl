@@ -37,6 +37,11 @@ struct EpipolarLines {
     float samples_per_radian;
 };
 
+// Of parallel light the place among the cells of what is so far (m) from the axis.
+float epipolar_sun_place(EpipolarLines lines, float radius) {
+    return log(1.0 + radius / EPIPOLAR_RADIUS) * lines.cells_per_unit;
+}
+
 // Where the i-th entry of a list lies in its texture.
 ivec2 epipolar_texel(int i) { return ivec2(i & ((1 << EPIPOLAR_ROW_BITS) - 1), i >> EPIPOLAR_ROW_BITS); }
 

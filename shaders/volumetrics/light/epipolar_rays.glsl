@@ -23,6 +23,12 @@ bool chosen_ray(inout ivec2 pixel, inout Ray ray) {
     }
     return rays == RAYS_OF_PIXELS || texelFetch(unwarped, pixel, 0).a == 0.0;
 }
+
+// Behind what the samples see, what they see last goes on.
+void end_with_samples(inout EpipolarRay ray) {
+    int made = int(texelFetch(epipolar_nodes, epipolar_texel(ray.root), 0).x);
+    if (rays == RAYS_OF_PIXELS_LEFT) ray.last = max(made, 1) - 1;
+}
 #endif
 
 #if EPIPOLAR == 2

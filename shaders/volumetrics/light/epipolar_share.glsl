@@ -15,6 +15,7 @@ uniform int coarsest_level;  // 0: cell after cell
 struct EpipolarRay {
     int root;  // index of the line's nodes
     int cells;
+    int last;  // cell that was made
     float slope;
     float cosine;  // of the ray's angle to the axis
     float sine;
@@ -29,7 +30,7 @@ EpipolarRay epipolar_ray(int light, vec3 direction) {
     float sine = length(across);
     int line = clamp(int(epipolar_line(lines, across)), 0, lines.lines - 1);
     float slope = clamp(cosine / max(sine, 1.0e-9), -EPIPOLAR_LARGEST, EPIPOLAR_LARGEST);
-    return EpipolarRay(lines.nodes + line * 2 * lines.cells, lines.cells, slope, cosine, sine, lines.distance,
+    return EpipolarRay(lines.nodes + line * 2 * lines.cells, lines.cells, lines.cells - 1, slope, cosine, sine, lines.distance,
                        lines.cells_per_unit);
 }
 
@@ -37,7 +38,7 @@ EpipolarRay epipolar_ray(int light, vec3 direction) {
 float epipolar_place(EpipolarRay ray, float t) {
     float units = ray.distance == 0.0 ? log(1.0 + t * ray.sine / EPIPOLAR_RADIUS)
                                       : atan(t * ray.sine, ray.distance - t * ray.cosine);
-    return min(units * ray.cells_per_unit, float(ray.cells));
+    return min(units * ray.cells_per_unit, float(ray.last + 1));
 }
 float epipolar_distance(EpipolarRay ray, float place) {
     return EPIPOLAR_RADIUS * (exp(place / ray.cells_per_unit) - 1.0) / max(ray.sine, 1.0e-9);
@@ -68,8 +69,8 @@ int epipolar_level(EpipolarRay ray, int cell, int last) {
 // 0 .. 1. Light gathered is added where visibility begins and taken away where it ends.
 float epipolar_share(EpipolarRay ray, Gathering light) {
     vec2 places = vec2(epipolar_place(ray, light.begin), epipolar_place(ray, light.end));
-    int begin = min(int(places.x), ray.cells - 1);
-    int last = clamp(int(places.y - 0.5), begin, ray.cells - 1);
+    int begin = min(int(places.x), ray.last);
+    int last = clamp(int(places.y - 0.5), begin, ray.last);
     int cell = begin;
     // The only cell may have its middle beyond the part's end, as near the axis of parallel light.
     float slope = ray.slope;

@@ -1,7 +1,7 @@
 // Which samples of a line of the sun ask the trees, and for each other one the two of them between which it is
 // interpolated: one group for each line. Every `sample_step`-th asks, and so do both sides of a break of depth, that is where the
 // inverse distance, linear along a plane, bends. Chosen by bits, as in "Real-Time Volumetric Shadows using 1D Min-Max
-// Mipmaps" and its implementation by Yusov.
+// Mipmaps" and its implementation by Yusov. And how many cells of the line its samples see.
 #include "shaders/volumetrics/light/epipolar_samples.glsl"
 
 const int MOST_SAMPLES = 2048;
@@ -9,11 +9,13 @@ const int THREADS = 64;
 const int BITS = MOST_SAMPLES / THREADS;  // samples of a thread
 layout(local_size_x = THREADS) in;
 layout(rg16ui, binding = 0) writeonly uniform uimage2D sources;
+layout(r32f, binding = 1) writeonly uniform image2D cells_seen;
 layout(binding = 0) uniform sampler2D depth_texture;
 layout(binding = 1) uniform sampler2D table;
 uniform int sample_step;
 
 shared float surface[MOST_SAMPLES];  // inverse distance, 1/m
+shared float radius[THREADS];         // largest distance of what is seen from the axis, m
 
 float inverse_at(int i) { return i < 0 || i >= MOST_SAMPLES ? NOT_SEEN : surface[i]; }
 
@@ -29,12 +31,24 @@ void main() {
     int line = int(gl_WorkGroupID.x);
     int begin = BITS * int(gl_LocalInvocationID.x);
     int end = min(begin + BITS, lines.samples);
+    float largest_radius = -1.0;
     for (int i = begin; i < begin + BITS; ++i) {
         vec3 direction = sample_direction(lines, ivec2(i, line));
         ivec2 pixel = i < end ? seen_pixel(direction) : ivec2(-1);
-        surface[i] = pixel.x < 0 ? NOT_SEEN : inverse_distance(texelFetch(depth_texture, pixel, 0).r, direction);
+        surface[i] = NOT_SEEN;
+        if (pixel.x >= 0) {
+            surface[i] = inverse_distance(texelFetch(depth_texture, pixel, 0).r, direction);
+            float seen = 1.0 / max(surface[i], 1.0 / volumetrics.max_distance);
+            largest_radius = max(largest_radius, seen * length(cross(direction, lines.axis)));
+        }
     }
+    radius[gl_LocalInvocationID.x] = largest_radius;
     barrier();
+    if (begin == 0) {
+        for (int i = 1; i < THREADS; ++i) largest_radius = max(largest_radius, radius[i]);
+        float seen = largest_radius < 0.0 ? 0.0 : floor(epipolar_sun_place(lines, largest_radius)) + 2.0;
+        imageStore(cells_seen, ivec2(line, 0), vec4(min(seen, float(lines.cells)), 0.0, 0.0, 0.0));
+    }
     uint asks = 0u;
     for (int i = begin; i < end; ++i)
         if (surface[i] != NOT_SEEN && ((i & (sample_step - 1)) == 0 || bends(i))) asks |= 1u << (i - begin);

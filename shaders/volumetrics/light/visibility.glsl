@@ -32,7 +32,7 @@ float lamp_visibility(uint index, GpuLight light, vec3 point) {
 #if EPIPOLAR == 2
 float sun_share(Ray ray, float begin, float end, float fall, float offset) { return 1.0; }
 #elif EPIPOLAR
-EpipolarRay sun_epipolar_ray = EpipolarRay(0, 1, 0.0, 0.0, 1.0, 0.0, 1.0);  // set once a pixel
+EpipolarRay sun_epipolar_ray = EpipolarRay(0, 1, 0, 0.0, 0.0, 1.0, 0.0, 1.0);  // set once a pixel
 
 float sun_share(Ray ray, float begin, float end, float fall, float offset) {
     return epipolar_share(sun_epipolar_ray, Gathering(begin, end, fall, vec4(0.0), false));

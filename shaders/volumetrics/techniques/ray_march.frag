@@ -269,6 +269,9 @@ void main() {
     Extinction sun_front = Extinction(0.0);
 #if EPIPOLAR == 1 && HAS_SUN
     sun_epipolar_ray = epipolar_ray(0, ray.direction);
+#if OTHER_RAYS
+    end_with_samples(sun_epipolar_ray);
+#endif
 #endif
 #if HAS_SUN
     sun_front = to_extinction(sun_optical_depth(ray.origin.y + ray.direction.y * begin, -sun_direction()));

@@ -85,7 +85,8 @@ TextureRef upload_table(Frame& frame, const EpipolarPlan& plan) {
     return frame.passes.import("volumetrics/epipolar_lights", texture);
 }
 
-TextureRef add_lines(Frame& frame, const EpipolarPlan& plan, TextureRef table) {
+/// `cells_seen`: of the sun's lines by their samples; or empty.
+TextureRef add_lines(Frame& frame, const EpipolarPlan& plan, TextureRef table, TextureRef cells_seen) {
     if (plan.lights.empty()) {
         frame.skip("volumetrics/epipolar_lines", "no light in view that casts shadows");
         return {};
@@ -95,10 +96,11 @@ TextureRef add_lines(Frame& frame, const EpipolarPlan& plan, TextureRef table) {
     const gl::Program& lines = frame.program(lines_program);
     frame.add({.name = "volumetrics/epipolar_lines",
                .program = lines,
-               .sources = {{table}},
+               .sources = {{table}, {cells_seen}},
                .images = {{&nodes}},
                .lit = true,
-               .draw = [&lines, lights = plan.lights] {
+               .draw = [&lines, lights = plan.lights, sampled = static_cast<bool>(cells_seen)] {
+                   lines.set("sampled", static_cast<int>(sampled));
                    for (const EpipolarLines& light : lights) {
                        lines.set("light", static_cast<int>(light.index));
                        glDispatchCompute(static_cast<GLuint>(light.lines), 1, 1);
@@ -147,48 +149,54 @@ struct March {
     }
 };
 
-/// The shares of sunlight of all pixels, from samples along the sun's lines; and of those pixels that have none.
-struct Shares {
-    TextureRef unwarped, of_pixels_left;
-};
+/// The steps that give all pixels their shares of sunlight by samples along the sun's lines.
+struct Samples {
+    Frame& frame;
+    const EpipolarLines& sun;
+    TextureRef table;
+    TextureRef sources = create("epipolar_sources", GL_RG16UI), asked = create("epipolar_asked", GL_RGBA16F),
+               interpolated = create("epipolar_samples", GL_RGBA16F);
+    TextureRef cells_seen =
+        frame.passes.create("volumetrics/epipolar_cells_seen", {.format = GL_R32F, .size = {up(sun.lines), 1, 1}});
+    TextureRef unwarped = frame.create("volumetrics/epipolar_unwarped"),
+               of_pixels_left = frame.create("volumetrics/epipolar_fixed_up");
 
-Shares add_shares(Frame& frame, March& march, const EpipolarLines& sun) {
-    constexpr int block = 64;  // the pool keeps what earlier frames had
-    const auto up = [](int n) { return (n + block - 1) / block * block; };
-    const auto create = [&](const std::string& name, GLenum format) {
+    /// The pool keeps what earlier frames had.
+    static int up(int n) { return (n + 63) / 64 * 64; }
+    [[nodiscard]] TextureRef create(const std::string& name, GLenum format) const {
         return frame.passes.create("volumetrics/" + name,
                                    {.format = format, .size = {up(sun.samples), up(sun.lines), 1}});
-    };
-    const auto uniforms = [to_pixel = direction_to_pixel(frame.inputs, frame.size),
-                           settings = frame.settings.epipolar](const PassContext&, const gl::Program& shares) {
-        shares.set("to_pixel", to_pixel);
-        shares.set("tolerance", settings.tolerance);
-        shares.set("sample_step", settings.step);
-    };
-    TextureRef sources = create("epipolar_sources", GL_RG16UI);
-    frame.add({.name = share_passes[0],
-               .program = frame.program(sources_program),
-               .sources = {{frame.depth}, {march.table}},
-               .images = {{&sources}},
-               .set = uniforms,
-               .groups = {sun.lines, 1, 1}});
-    TextureRef asked = create("epipolar_asked", GL_RGBA16F), samples = create("epipolar_samples", GL_RGBA16F);
-    const Permutation sun_alone{{"CHROMATIC", 0}, {"LAMPS", 0}};
-    march.add(share_passes[1], Rays::samples, sun_alone, {sources}, {&asked});
-    frame.add({.name = share_passes[2],
-               .program = frame.program(interpolate_program),
-               .sources = {{frame.depth}, {march.table}, {sources}, {asked}},
-               .targets = {&samples},
-               .set = uniforms});
-    Shares shares{frame.create("volumetrics/epipolar_unwarped"), frame.create("volumetrics/epipolar_fixed_up")};
-    frame.add({.name = share_passes[3],
-               .program = frame.program(unwarp_program),
-               .sources = {{frame.depth}, {march.table}, {samples}},
-               .targets = {&shares.unwarped},
-               .set = uniforms});
-    march.add(share_passes[4], Rays::pixels_left, sun_alone, {{}, shares.unwarped}, {&shares.of_pixels_left});
-    return shares;
-}
+    }
+    void add(Pass pass) {
+        pass.set = [to_pixel = direction_to_pixel(frame.inputs, frame.size), settings = frame.settings.epipolar](
+                       const PassContext&, const gl::Program& program) {
+            program.set("to_pixel", to_pixel);
+            program.set("tolerance", settings.tolerance);
+            program.set("sample_step", settings.step);
+        };
+        frame.add(pass);
+    }
+    void choose() {
+        add({.name = share_passes[0],
+             .program = frame.program(sources_program),
+             .sources = {{frame.depth}, {table}},
+             .images = {{&sources}, {&cells_seen}},
+             .groups = {sun.lines, 1, 1}});
+    }
+    void ask(March& march) {
+        const Permutation sun_alone{{"CHROMATIC", 0}, {"LAMPS", 0}};
+        march.add(share_passes[1], Rays::samples, sun_alone, {sources}, {&asked});
+        add({.name = share_passes[2],
+             .program = frame.program(interpolate_program),
+             .sources = {{frame.depth}, {table}, {sources}, {asked}},
+             .targets = {&interpolated}});
+        add({.name = share_passes[3],
+             .program = frame.program(unwarp_program),
+             .sources = {{frame.depth}, {table}, {interpolated}},
+             .targets = {&unwarped}});
+        march.add(share_passes[4], Rays::pixels_left, sun_alone, {{}, unwarped}, {&of_pixels_left});
+    }
+};
 
 Estimate add(Frame& frame) {
     if (!frame.inputs.has_shadow_maps) {
@@ -198,16 +206,19 @@ Estimate add(Frame& frame) {
     }
     const EpipolarPlan plan = plan_epipolar(frame.inputs, frame.settings, frame.size);
     const TextureRef table = upload_table(frame, plan);
-    March march{frame, table, add_lines(frame, plan, table)};
     Estimate estimate = frame.create_estimate();
     const std::vector<TextureRef*> targets{&estimate.scattering, &estimate.transmittance};
     if (frame.inputs.has_sun && samples_lines(frame.settings)) {
-        const Shares shares = add_shares(frame, march, plan.lights.front());
-        march.add("volumetrics/epipolar", Rays::pixels, {{"EPIPOLAR", 2}}, {shares.unwarped, shares.of_pixels_left},
-                  targets);
+        Samples samples{frame, plan.lights.front(), table};
+        samples.choose();
+        March march{frame, table, add_lines(frame, plan, table, samples.cells_seen)};
+        samples.ask(march);
+        march.add("volumetrics/epipolar", Rays::pixels, {{"EPIPOLAR", 2}},
+                  {samples.unwarped, samples.of_pixels_left}, targets);
     } else {
         for (const char* name : share_passes)
             frame.skip(name, frame.inputs.has_sun ? "epipolar_step is 1" : "no sun");
+        March march{frame, table, add_lines(frame, plan, table, {})};
         march.add("volumetrics/epipolar", Rays::pixels, {}, {}, targets);
     }
     return estimate;
