@@ -1,4 +1,4 @@
-// Samples of the sun's share along its lines, a texel each: x along the line, y the line. They lie at fixed angles to the
+// Samples of the sunlight along the sun's lines, a texel each: x along the line, y the line. They lie at fixed angles to the
 // axis, about as far apart as the lines; what each stands for is its ray up to the surface of the pixel it falls in.
 #ifndef VOLUMETRICS_EPIPOLAR_SAMPLES_GLSL
 #define VOLUMETRICS_EPIPOLAR_SAMPLES_GLSL

@@ -1,5 +1,5 @@
 // From samples along the sun's lines to pixels: the four round a pixel, bilinear, each as far as its surface is the
-// pixel's. rgb: visible share of the sunlight; a: 1, or 0 where no sample is of the pixel's surface.
+// pixel's. rgb: source of sunlight (epipolar_sunlight.glsl); a: 1, or 0 where no sample is of the pixel's surface.
 #include "shaders/volumetrics/frame/ray.glsl"
 #include "shaders/volumetrics/light/epipolar_samples.glsl"
 #include "shaders/lib/pack.glsl"
@@ -7,7 +7,7 @@
 layout(binding = 0) uniform sampler2D depth_texture;
 layout(binding = 1) uniform sampler2D table;
 layout(binding = 2) uniform sampler2D samples;
-layout(location = 0) out vec4 out_share;
+layout(location = 0) out vec4 out_source;
 
 void main() {
     const float LEAST = 0.01;
@@ -35,6 +35,6 @@ void main() {
         if (s.r >= 0.0) lit += weight * vec4(s.rgb, 1.0);
     }
     count_work(WORK_TEXTURE_FETCHES, 8u);
-    out_share = round_to_half(vec4(lit.rgb / max(lit.a, 1.0e-7), weights < LEAST ? 0.0 : 1.0));
+    out_source = round_to_half(vec4(lit.rgb / max(lit.a, 1.0e-7), weights < LEAST ? 0.0 : 1.0));
     flush_work();
 }

@@ -1,6 +1,5 @@
 // The visible share of the light that a part of a view ray gathers: EPIPOLAR 0 by one lookup, at a point that an offset
-// (0..1) chooses, so that the mean over all offsets is the share; 1 by the trees of epipolar_share.glsl, with no offset;
-// 2 the same of lamps, and 1 of the sun.
+// (0..1) chooses, so that the mean over all offsets is the share; 1 by the trees of epipolar_share.glsl, with no offset.
 #ifndef VOLUMETRICS_VISIBILITY_GLSL
 #define VOLUMETRICS_VISIBILITY_GLSL
 
@@ -29,9 +28,7 @@ float lamp_visibility(uint index, GpuLight light, vec3 point) {
 
 #if HAS_SUN
 // Of sunlight that falls by exp(-fall) from `begin` to `end`.
-#if EPIPOLAR == 2
-float sun_share(Ray ray, float begin, float end, float fall, float offset) { return 1.0; }
-#elif EPIPOLAR
+#if EPIPOLAR
 EpipolarRay sun_epipolar_ray = EpipolarRay(0, 1, 0, 0.0, 0.0, 1.0, 0.0, 1.0);  // set once a pixel
 
 float sun_share(Ray ray, float begin, float end, float fall, float offset) {

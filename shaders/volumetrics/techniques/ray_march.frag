@@ -3,7 +3,8 @@
 //     L += T(0,a) int_a^b T(a,t) (sigma_s sum_i p V_i T_i E_i + e) dt,    T(0,b) = T(0,a) exp(-optical depth of [a,b])
 // Media, transmittances and the inverse square of lamps are integrated in closed form, or nearly; only visibility is sampled,
 // once a segment, at an offset that differs from pixel to pixel; EPIPOLAR: without noise, by the trees of epipolar.glsl,
-// 2: but the sun's, which epipolar_unwarp.frag gives for the whole ray.
+// 2: without the sun, whose light along the whole ray comes from samples of its lines (epipolar_sunlight.glsl), each of which
+// is what SUN_ALONE draws.
 //
 // PARTS: the unshadowed light of sun and lamps, without noise, and the visible share of it are stored apart
 // (relight.frag), so that only the latter is filtered.
@@ -19,14 +20,15 @@
 #define SUN_APART (PARTS == 1 && HAS_SUN == 1)
 #define LAMPS_APART (PARTS == 1 && LAMPS == 2)
 #define SUMS_APART (PARTS == 1 || LOCAL_MEDIA == 2 || EPIPOLAR > 0)
-// May draw the share of the sun alone, of other rays than all pixels'.
-#define OTHER_RAYS (EPIPOLAR == 1 && HAS_SUN == 1 && LAMPS == 0)
+#ifndef SUN_ALONE
+#define SUN_ALONE 0
+#endif
 
 #include "shaders/volumetrics/reconstruction/noise_offset.glsl"
 #include "shaders/volumetrics/light/part.glsl"
 #include "shaders/volumetrics/light/segment_light.glsl"
 #include "shaders/lib/pack.glsl"
-#include "shaders/volumetrics/light/epipolar_rays.glsl"
+#include "shaders/volumetrics/light/epipolar_sunlight.glsl"
 #if LOCAL_MEDIA == 2
 #include "shaders/volumetrics/light/local_segment.glsl"
 #endif
@@ -238,9 +240,12 @@ void march_segment(Ray ray, float a, float b, float offset, inout Extinction sun
 
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
+#if SUN_ALONE
+    if (!is_wanted(pixel)) discard;
+#endif
     Ray ray = view_ray(screen_place(gl_FragCoord.xy));
-#if OTHER_RAYS
-    if (!chosen_ray(pixel, ray)) discard;
+#if SUN_ALONE
+    if (of_samples) ray = sample_ray(pixel, pixel);
 #endif
     float depth = texelFetch(depth_texture, pixel, 0).r;
     count_work(WORK_TEXTURE_FETCHES, 1u);
@@ -269,7 +274,7 @@ void main() {
     Extinction sun_front = Extinction(0.0);
 #if EPIPOLAR == 1 && HAS_SUN
     sun_epipolar_ray = epipolar_ray(0, ray.direction);
-#if OTHER_RAYS
+#if SUN_ALONE
     end_with_samples(sun_epipolar_ray);
 #endif
 #endif
@@ -298,18 +303,21 @@ void main() {
         step_length *= volumetrics.step_growth;
         a = b;
     }
+#if SUN_ALONE
+    march.radiance = vec3(0.0);
+#endif
     if (volumetrics.has_global != 0u && surface > end && end >= volumetrics.max_distance)
         march_tail(ray, end, surface, is_background(depth), ambient, sun_front, march);
 #if EPIPOLAR == 2
-    sun_light.visible = sun_light.whole * unwarped_share(pixel);
+    march.radiance += sunlight(pixel, march.transmittance);
 #endif
 #if SUMS_APART && PARTS == 0
     march.radiance += sun_light.visible + lamp_light.visible;
 #endif
 
     out_scattering = round_to_half(vec4(march.radiance, average(march.transmittance)));
-#if OTHER_RAYS
-    if (rays != RAYS_OF_PIXELS) out_scattering = visible_share(sun_light);
+#if SUN_ALONE
+    out_scattering = sun_source(march.radiance, march.transmittance);
 #endif
 #if CHROMATIC
     out_transmittance = round_to_half(vec4(march.transmittance, average(march.transmittance)));
