@@ -29,7 +29,7 @@ float lamp_visibility(uint index, GpuLight light, vec3 point) {
 #if HAS_SUN
 // Of sunlight that falls by exp(-fall) from `begin` to `end`.
 #if EPIPOLAR
-EpipolarRay sun_epipolar_ray = EpipolarRay(0, 1, 0.0, 0.0, 1.0, 0.0, 1.0);  // set once a pixel
+EpipolarRay sun_epipolar_ray = EpipolarRay(0, 1, 0, 0.0, 0.0, 1.0, 0.0, 1.0);  // set once a pixel
 
 float sun_share(Ray ray, float begin, float end, float fall, float offset) {
     return epipolar_share(sun_epipolar_ray, Gathering(begin, end, fall, vec4(0.0), false));
