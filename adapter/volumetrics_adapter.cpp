@@ -74,12 +74,14 @@ void add_lights(volumetrics::Inputs& inputs, const FrameContext& frame, const Li
     for (std::size_t i = 0; i < facts.lamps.size(); ++i) {
         const Lamp& lamp = facts.lamps[i];
         if (!lamp.in_view) continue;
+        const Light& light = frame.scene.lights[lamp.light];
         inputs.lamps.push_back({.index = static_cast<std::uint32_t>(i),
                                 .position = lamp.position,
                                 .range = lamp.range,
                                 .axis = lamp.axis,
                                 .cos_outer = lamp.cos_outer,
-                                .shadow = frame.settings.shadows && frame.scene.lights[lamp.light].shadow});
+                                .shadow = frame.settings.shadows && light.shadow,
+                                .intensity = (light.intensity.r + light.intensity.g + light.intensity.b) / 3});
     }
     inputs.light_textures = sources.textures;
     inputs.light_buffers = sources.buffers;

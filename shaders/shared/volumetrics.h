@@ -4,6 +4,7 @@
 #include "shaders/shared/types.h"
 
 #define MAX_HEIGHT_MEDIA 4
+#define MAX_FEW_LAMPS 8
 
 // volumetrics::Shape.
 #define SHAPE_ELLIPSOID 0
@@ -111,9 +112,10 @@ struct VolumetricsData {
     uint loop_rounds;           // of all loops of a shader, after which the driver ends them
     uint grid_suns;             // of grid_sun
     uint scattering_orders;     // of sunlight in density grids
+    uint few_lamp_count;
+    float lamp_core;            // of the many lamps: radius of the core / view depth, see lamp_cores.frag
     uint unused_1;
-    uint unused_2;
-    uint unused_3;
+    uvec4 few_lamps[MAX_FEW_LAMPS / 4];  // technique auto: lamps that pixels take one by one, the others are in froxels; ~0: none
     mat4 froxel_begins;         // FROXEL_TABLE: view depth (m) where each of 16 equal shares of the slices begins
     mat4 froxel_lengths;        // and their lengths (m); entry i is [i / 4][i % 4]
     mat4 world_to_sun_volume;   // world to texture xyz of the sun volume, see light_transmittance.glsl

@@ -42,6 +42,18 @@ void expect_lamps(Ray ray, float begin, float end, uint segments) {
 uint lamp_stride(uint count) { return 1u + count * lamp_rounds / volumetrics.loop_rounds; }
 uint first_lamp(uint stride, float place) { return uint(fract(39.55 * place) * float(stride)); }
 
+// 1: of all lamps only the few of the uniform block.
+#ifndef FEW_LAMPS
+#define FEW_LAMPS 0
+#endif
+bool is_few_lamp(uint index) {
+    return any(equal(volumetrics.few_lamps[0], uvec4(index))) || any(equal(volumetrics.few_lamps[1], uvec4(index)));
+}
+// Whether a lamp of a list is left to others.
+#ifndef LEFT_OUT
+#define LEFT_OUT(index) false
+#endif
+
 float lamp_inverse_range(GpuLight light) {
     return light.position_range.w > 0.0 ? 1.0 / light.position_range.w : 0.0;
 }
@@ -69,12 +81,13 @@ vec3 lamps_at(Ray ray, float t, float t_visibility, Medium m, out vec3 unshadowe
     uint stride = lamp_stride(range.count);
     for (uint i = first_lamp(stride, t_visibility); i < range.count; i += stride) {
         uint index = light_index(range.offset + i);
+        if (LEFT_OUT(index)) continue;
         GpuLight light = light_at(index);
         count_work(WORK_LIGHT_EVALUATIONS, 1u);
         vec3 to_lamp = light.position_range.xyz - point;
         float distance_squared = dot(to_lamp, to_lamp);
         float attenuation =
-            lamp_attenuation(distance_squared, light.intensity_radius.w, lamp_inverse_range(light));
+            lamp_attenuation(distance_squared, LAMP_RADIUS(light), lamp_inverse_range(light));
         float distance = sqrt(distance_squared);
         to_lamp /= max(distance, 1.0e-6);
         if (is_spot(light)) attenuation *= spot_cone(-dot(to_lamp, light.direction_type.xyz), light.cone_shadow.xy);
@@ -174,6 +187,16 @@ void next_slice(Ray ray, Segment segment, inout LampWalk walk) {
 
 // Rasterisers that run all lanes in step pay what is done with a lamp only for the lamps found.
 bool next_lamp(Ray ray, Segment segment, inout LampWalk walk, out FoundLamp found) {
+#if FEW_LAMPS
+    while (walk.next < volumetrics.few_lamp_count) {
+        found.index = volumetrics.few_lamps[walk.next / 4u][walk.next % 4u];
+        ++walk.next;
+        GpuLight light = light_at(found.index);
+        found.lamp = lamp_ray(ray.origin, ray.direction, light.position_range.xyz);
+        found.reach = lamp_reach(ray, segment, light, found.lamp);
+        if (found.reach.begin < found.reach.end) return true;
+    }
+#else
     while (walk.next < walk.list_end || walk.end < segment.end) {
         if (walk.next >= walk.list_end) {
             next_slice(ray, segment, walk);
@@ -181,6 +204,7 @@ bool next_lamp(Ray ray, Segment segment, inout LampWalk walk, out FoundLamp foun
         }
         found.index = light_index(walk.next);
         walk.next += walk.stride;
+        if (LEFT_OUT(found.index)) continue;
         GpuLight light = light_at(found.index);
         found.lamp = lamp_ray(ray.origin, ray.direction, light.position_range.xyz);
         found.reach = lamp_reach(ray, segment, light, found.lamp);
@@ -188,6 +212,7 @@ bool next_lamp(Ray ray, Segment segment, inout LampWalk walk, out FoundLamp foun
                     (found.reach.nearest < walk.end || walk.end >= segment.end);
         if (here && found.reach.begin < found.reach.end) return true;
     }
+#endif
     return false;
 }
 
@@ -218,7 +243,7 @@ vec3 lamp_over_segment(Ray ray, Segment segment, FoundLamp found, inout vec3 uns
     GpuLight light = light_at(found.index);
     LampRay lamp = found.lamp;
     Reach reach = found.reach;
-    float radius = light.intensity_radius.w;
+    float radius = LAMP_RADIUS(light);
     LampSegment rule = lamp_segment(lamp, reach.begin, reach.end, radius, lamp_inverse_range(light));
     vec4 cos_theta = lamp_segment_cos_theta(rule, lamp);
     vec3 sum = vec3(0.0);

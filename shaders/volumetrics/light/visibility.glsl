@@ -8,6 +8,7 @@
 #include "shaders/lib/lamp_segment.glsl"
 #include "shaders/lib/work.glsl"
 #include "shaders/volumetrics/frame/ray.glsl"
+#include "shaders/volumetrics/light/lamp_core.glsl"
 #include "shaders/volumetrics/media/extinction.glsl"
 
 #ifndef EPIPOLAR
@@ -55,7 +56,7 @@ float lamp_share(Ray ray, uint index, GpuLight light, LampRay lamp, vec2 reach, 
     // what else varies by its four nodes.
     float a = reach.x - lamp.t_closest;
     float span = reach.y - reach.x;
-    LampIntegral integral = lamp_integral(a, a + span, span, lamp.h, light.intensity_radius.w);
+    LampIntegral integral = lamp_integral(a, a + span, span, lamp.h, LAMP_RADIUS(light));
     float advance = clamp(lamp_advance(integral, lamp_segment_place(parts, offset) * integral.total), 0.0, span);
     return lamp_visibility(index, light, visibility_point(ray, reach.x + advance));
 #endif

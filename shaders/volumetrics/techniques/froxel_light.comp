@@ -11,10 +11,16 @@
 // LOCAL_MEDIA: local media are in view or dim light.
 #define LIGHT_VOLUMES (LOCAL_MEDIA + GRIDS)
 
+uniform bool many_lamps;  // nothing but the lamps that are not among the few of the uniform block
+
+#define LEFT_OUT(index) (many_lamps && is_few_lamp(index))
+#define LAMP_RADIUS(light) max(light.intensity_radius.w, many_lamps ? core_radius(light) : 0.0)
+
 #include "shaders/lib/sampling_noise.glsl"
 #include "shaders/lib/pack.glsl"
 #include "shaders/volumetrics/media/froxel_grid.glsl"
 #include "shaders/volumetrics/light/part.glsl"
+
 #include "shaders/volumetrics/light/segment_light.glsl"
 
 layout(local_size_x = 16, local_size_y = 16) in;
@@ -105,6 +111,7 @@ SliceLight slice_light(Ray ray, ivec3 froxel, float begin, float end, float cut,
     Optics optics = medium_optics(m, lit_end - begin);
     SliceLight slice;
     slice.light = segment_light_parts(ray, segment, m, optics, ambient, sun_front);
+    if (many_lamps) slice.light.diffuse = vec3(0.0);
     slice.share = Extinction(1.0);
     if (lit_end < end) {
         vec3 local_sigma_t = segment.sigma_t - volumetrics.homogeneous_sigma_t.rgb;

@@ -10,8 +10,8 @@
 
 namespace tyndall::test {
 
-/// Of `all` permutations few that hold each pair of values of two axes which one of all holds: a fault of two defines
-/// together shows in one of them. Each time the one with the most new pairs.
+/// Of `all` permutations few that hold each pair of values of two axes which one of all holds: a fault of two
+/// defines together shows in one of them. Each time the one with the most new pairs.
 inline std::vector<Permutation> covering_permutations(const std::vector<Permutation>& all) {
     using Pair = std::tuple<std::string, int, std::string, int>;
     std::set<Pair> covered;

@@ -179,11 +179,13 @@ Inputs StubHost::inputs(PassList& passes) {
     for (std::size_t i = 0; i < lights.size(); ++i) {
         const shared::GpuLight& light = lights[i];
         const bool spot = light.direction_type.w == LIGHT_SPOT;
-        in.lamps.push_back({.index = static_cast<std::uint32_t>(i),
-                            .position = light.position_range,
-                            .range = light.position_range.w,
-                            .axis = light.direction_type,
-                            .cos_outer = spot ? -light.cone_shadow.y / light.cone_shadow.x : -1.0F});
+        in.lamps.push_back(
+            {.index = static_cast<std::uint32_t>(i),
+             .position = light.position_range,
+             .range = light.position_range.w,
+             .axis = light.direction_type,
+             .cos_outer = spot ? -light.cone_shadow.y / light.cone_shadow.x : -1.0F,
+             .intensity = (light.intensity_radius.r + light.intensity_radius.g + light.intensity_radius.b) / 3});
     }
     in.has_ambient = ambient != glm::vec3(0);
     in.bind_lighting = [this] {

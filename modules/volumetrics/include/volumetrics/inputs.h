@@ -55,6 +55,7 @@ struct Lamp {
     glm::vec3 axis{0};      ///< unit, of a spot's cone
     float cos_outer = -1;   ///< of its half angle; -1: a point lamp
     bool shadow = true;     ///< casts one
+    float intensity = 1;    ///< mean channel, cd, in any unit that all lamps share: which of them matter most
 };
 
 /// What the host gives each frame. All textures are borrowed.

@@ -125,6 +125,11 @@ struct EpipolarSettings {
     int lamp_cells = 512;    ///< a power of two, 16 … 2048
     int lamp_rays = 32;      ///< 1 … 1024 a pixel, of all lamps
 };
+/// Of the technique auto.
+struct AutoSettings {
+    int lamps = 4;            ///< 0 … 8 that pixels take one by one
+    float least_lamp = 0.5f;  ///< 0 … 1 of all lamps' light, for each of them
+};
 struct ReferenceSettings {
     int steps = 1024;       ///< 16 … 16384 a ray
     int lamp_samples = 16;  ///< 1 … 64 a lamp and 16 steps
@@ -147,6 +152,7 @@ struct Settings {
     RadialShaftSettings radial_shafts = {};
     ShaftGeometrySettings shaft_geometry = {};
     EpipolarSettings epipolar = {};
+    AutoSettings automatic = {};
     ReferenceSettings reference = {};
 };
 

@@ -20,6 +20,7 @@ struct TechniqueTraits {
     bool local_media = true;           ///< sees local media; else only those that fill space
     bool unseen_local_media = false;   ///< wants them also where only light on its way passes through them
     bool needs_global_medium = false;  ///< adds nothing without one
+    bool few_lamps = false;            ///< takes the lamps that matter most one by one (FrameMedia::few_lamps)
     bool interactive = true;           ///< else a frame may take minutes: nobody should come to it by chance
 };
 

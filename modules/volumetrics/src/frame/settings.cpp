@@ -362,6 +362,17 @@ SettingsTable& growing_settings_table() {
                  "Technique epipolar: most rays of all lamps together, a pixel of the picture. Where lamps would "
                  "take more, all of them have wider spacings and fewer cells."},
                 1, 1024, Effect::resource, Scale::logarithmic)
+            .integer(
+                in(&S::automatic, &AutoSettings::lamps),
+                {"auto_lamps", "Lamps by pixel",
+                 "Technique auto: most lamps that pixels take one by one, with sharp shadows, those that light "
+                 "the medium most; the others are in froxels, in which shadows are soft."},
+                0, 8, Effect::resource)
+            .real(in(&S::automatic, &AutoSettings::least_lamp),
+                  {"auto_least_lamp", "Least lamp by pixel",
+                   "Technique auto: share of all lamps' light in the medium, below which a lamp is left to the "
+                   "froxels."},
+                  0, 1)
             .integer(in(&S::reference, &ReferenceSettings::steps),
                      {"reference_steps", "Reference steps",
                       "Samples per ray of the technique reference, where its error falls in proportion; taken as a "

@@ -7,6 +7,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "engine/core/error.h"
+#include "light/few_lamps.h"
 #include "media/froxel_tiles.h"
 #include "media/shape.h"
 #include "reconstruction/noise.h"
@@ -200,6 +201,20 @@ unsigned phase_option(PhaseFunction phase) {
     return glsl::PHASE_ISOTROPIC;
 }
 
+void set_few_lamps(const Inputs& inputs, const Settings& settings, FrameMedia& media) {
+    const glm::vec3 sigma_t(media.data.homogeneous_sigma_t);
+    media.few_lamps = choose_few_lamps(inputs.lamps, inputs.eye, (sigma_t.r + sigma_t.g + sigma_t.b) / 3,
+                                       settings.automatic.lamps, settings.automatic.least_lamp);
+    for (std::size_t i = 0; i < MAX_FEW_LAMPS; ++i)
+        media.data.few_lamps[i / 4][static_cast<int>(i % 4)] =
+            i < media.few_lamps.size() ? media.few_lamps[i].index : ~0U;
+    // Cores of one and a half froxels at the lamp's depth.
+    const glm::vec2 froxel{2 / (inputs.projection[0][0] * static_cast<float>(settings.froxels.x)),
+                           2 / (inputs.projection[1][1] * static_cast<float>(settings.froxels.y))};
+    media.data.lamp_core = 1.5F * std::max(froxel.x, froxel.y);
+    media.data.few_lamp_count = static_cast<std::uint32_t>(media.few_lamps.size());
+}
+
 }  // namespace
 
 bool is_grid_permutation(const Permutation& p) {
@@ -242,6 +257,7 @@ FrameMedia gather_media(const Inputs& inputs, const Settings& settings) {
     media.data.has_ambient = inputs.has_ambient ? 1U : 0U;
     media.data.further_suns = static_cast<std::uint32_t>(
         std::ranges::count_if(inputs.lamps, [&](const Lamp& l) { return is_sun(l, inputs.eye); }));
+    if (desc.traits.few_lamps) set_few_lamps(inputs, settings, media);
     media.data.fog_mode = static_cast<unsigned>(settings.analytic_fog.mode);
     media.data.radial_samples = static_cast<float>(settings.radial_shafts.samples);
     media.data.radial_decay = settings.radial_shafts.decay;

@@ -39,6 +39,7 @@ struct FrameMedia {
     std::vector<shared::LocalMedium> local;
     std::vector<ViewBounds> local_bounds;        ///< of each
     std::vector<IndexBox> local_froxels;         ///< that each may touch
+    std::vector<Lamp> few_lamps;                 ///< of techniques with the trait of that name
     std::vector<AttenuatingMedium> attenuating;  ///< none where light_transmittance is off or no sun or lamp shines
     bool has_global = false;
     bool local_emission = false;

@@ -6,6 +6,7 @@
 #include "engine/gl/texture.h"
 #include "frame/resources.h"
 #include "media/noise_volume.h"
+#include "techniques/epipolar.h"
 #include "techniques/epipolar_sunlight.h"
 #include "techniques/techniques.h"
 #include "volumetrics/frame.h"
@@ -26,7 +27,7 @@ const ProgramRegistry::Registration lines_registration(lines_program);
 
 /// EPIPOLAR 2 is without the sun, see epipolar_sunlight.h.
 bool is_valid(const Permutation& p) {
-    if (!is_epipolar_permutation(p)) return false;
+    if (!is_epipolar_permutation(p) || p.at("FEW_LAMPS") > p.at("LAMPS")) return false;
     return p.at("EPIPOLAR") == 1 || (p.at("HAS_SUN") == 0 && (p.at("GRIDS") == 0 || p.at("LOCAL_MEDIA") == 2));
 }
 
@@ -39,6 +40,7 @@ const ProgramDesc program{.name = "volumetrics/epipolar",
                                    {"GRIDS", {0, 1}},
                                    {"HAS_SUN", {0, 1}},
                                    {"LAMPS", {0, 2}},
+                                   {"FEW_LAMPS", {0, 1}},  // technique auto
                                    {"CHROMATIC", {0, 1}},
                                    {"COUNT_WORK", {0, 1}}},
                           .valid = is_valid};
@@ -50,11 +52,10 @@ int rows_of(std::int64_t texels) {
     return static_cast<int>(std::bit_ceil(static_cast<std::uint64_t>((texels + texels_a_row - 1) / texels_a_row)));
 }
 
-/// The table of lights, which the CPU writes.
-struct KeptTable : Kept {
-    gl::Texture texture;
-    [[nodiscard]] std::size_t bytes() const override { return texture ? gl::byte_size(texture.desc()) : 0; }
-};
+Inputs with_lamps(Inputs inputs, const std::vector<Lamp>& lamps) {
+    inputs.lamps = lamps;
+    return inputs;
+}
 
 TextureRef upload_table(Frame& frame, const EpipolarPlan& plan) {
     std::vector<glm::vec4> texels = plan.table();
@@ -91,13 +92,16 @@ TextureRef add_lines(Frame& frame, const EpipolarPlan& plan, TextureRef table, T
     return nodes;
 }
 
-Estimate add(Frame& frame) {
+}  // namespace
+
+Estimate add_epipolar(Frame& frame, bool few_lamps) {
     if (!frame.inputs.has_shadow_maps) {
         for (const char* name : {"volumetrics/epipolar_lines", "volumetrics/epipolar"})
             frame.skip(name, "the host has no shaders/interface/shadow_maps.glsl");
         return {};
     }
-    const EpipolarPlan plan = plan_epipolar(frame.inputs, frame.settings, frame.size);
+    const EpipolarPlan plan = plan_epipolar(
+        few_lamps ? with_lamps(frame.inputs, frame.media.few_lamps) : frame.inputs, frame.settings, frame.size);
     const TextureRef table = upload_table(frame, plan);
     std::optional<EpipolarSunlight> sunlight;
     if (frame.inputs.has_sun && samples_lines(frame.settings))
@@ -108,7 +112,8 @@ Estimate add(Frame& frame) {
     const TextureRef nodes = add_lines(frame, plan, table, sunlight ? sunlight->counts : TextureRef{});
     Permutation permutation = epipolar_permutation(frame);
     permutation["EPIPOLAR"] = 1;
-    permutation["LAMPS"] = frame.inputs.has_lamps ? 2 : 0;
+    permutation["FEW_LAMPS"] = few_lamps && !frame.media.few_lamps.empty();
+    permutation["LAMPS"] = frame.inputs.has_lamps && (!few_lamps || !frame.media.few_lamps.empty()) ? 2 : 0;
     Pass::Source samples, fixed_up;
     if (sunlight) {
         sunlight->add_passes(nodes);
@@ -132,18 +137,23 @@ Estimate add(Frame& frame) {
     return estimate;
 }
 
-}  // namespace
+const std::vector<std::string>& epipolar_passes() {
+    static const std::vector<std::string> names = [] {
+        std::vector<std::string> all{"volumetrics/epipolar_lines", "volumetrics/noise_volume",
+                                     "volumetrics/epipolar"};
+        all.insert(all.end(), epipolar_sunlight_passes().begin(), epipolar_sunlight_passes().end());
+        return all;
+    }();
+    return names;
+}
 
 TechniqueDesc epipolar() {
-    std::vector<std::string> passes{"volumetrics/epipolar_lines", "volumetrics/noise_volume",
-                                    "volumetrics/epipolar"};
-    passes.insert(passes.end(), epipolar_sunlight_passes().begin(), epipolar_sunlight_passes().end());
     return {.name = "epipolar",
             .help = "Marches with shares of light from min/max trees along epipolar lines: sharp, without noise.",
             .settings = "epipolar_",
-            .passes = passes,
+            .passes = epipolar_passes(),
             .traits = {.sampling = Sampling::exact, .any_resolution = true},
-            .add = add};
+            .add = [](Frame& frame) { return add_epipolar(frame, false); }};
 }
 
 }  // namespace tyndall::volumetrics

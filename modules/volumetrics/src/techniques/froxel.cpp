@@ -40,11 +40,11 @@ Estimate add(Frame& frame) {
 
 }  // namespace
 
-Fog add_froxel_fog(Frame& frame, FroxelHistory* history) {
+Fog add_froxel_fog(Frame& frame, FroxelHistory* history, FroxelContent content) {
     const FroxelMedia& media = froxel_media(frame);
     const TextureRef columns = froxel_columns(frame);
     if (history != nullptr) history->begin_frame(frame.inputs, frame.settings, frame.media);
-    const FroxelLight light = add_froxel_light(frame, media, columns, history);
+    const FroxelLight light = add_froxel_light(frame, media, columns, history, content);
     TextureRef radiance = light.radiance;
     if (history != nullptr)
         radiance = add_froxel_history(frame, columns, light, *history);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "techniques/froxel_steps.h"
 #include "volumetrics/frame.h"
 
 namespace tyndall::volumetrics {
@@ -8,7 +9,7 @@ class FroxelHistory;
 
 /// Light and transmittance of froxels: the technique froxel but for its last step, and what transparents are fogged
 /// by whatever the technique. `history` is null where there is none.
-[[nodiscard]] Fog add_froxel_fog(Frame& frame, FroxelHistory* history);
+[[nodiscard]] Fog add_froxel_fog(Frame& frame, FroxelHistory* history, FroxelContent content = FroxelContent::all);
 /// At the texture units of shaders/volumetrics/frame/apply.glsl.
 void bind_fog_textures(const PassContext& context, const Fog& fog);
 

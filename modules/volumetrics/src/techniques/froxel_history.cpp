@@ -31,6 +31,12 @@ void FroxelHistory::begin_frame(const Inputs& inputs, const Settings& settings, 
     const gl::TextureDesc desc{.kind = gl::TextureKind::d3, .format = GL_RGBA16, .size = size, .levels = 1};
     visibility_.begin_frame(desc, "volumetrics froxel visibility");
     certainty_.begin_frame(desc, "volumetrics froxel certainty");
+    if (!std::ranges::equal(few_lamps_, media.data.few_lamps)) {
+        // Froxels hold other lamps.
+        visibility_.invalidate();
+        certainty_.invalidate();
+        std::ranges::copy(media.data.few_lamps, few_lamps_);
+    }
     frame_ = valid() ? frame_ + 1 : 0;
     previous_ = current_;
     previous_sun_ = current_sun_;
@@ -76,7 +82,9 @@ TextureRef add_froxel_history(Frame& frame, TextureRef columns, const FroxelLigh
     TextureRef radiance = light.radiance;
     frame.add(
         {.name = "volumetrics/froxel_history",
-         .program = frame.program(program, {{"HAS_LAMPS", frame.inputs.has_lamps}, {"HISTORY", kind}}),
+         .program = frame.program(program, {{"HAS_SUN", static_cast<bool>(light.sun)},
+                                            {"HAS_LAMPS", static_cast<bool>(light.lamps)},
+                                            {"HISTORY", kind}}),
          .sources =
              {{columns}, {light.visibility}, {light.sun}, {light.lamps}, {visibility_before}, {certainty_before}},
          .images = {{&radiance, true}, {&visibility}, {&certainty}},

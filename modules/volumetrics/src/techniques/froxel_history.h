@@ -40,6 +40,7 @@ class FroxelHistory : public Kept {
     History visibility_, certainty_;
     View previous_, current_;
     glm::vec3 previous_sun_{0}, current_sun_{0};
+    glm::uvec4 few_lamps_[MAX_FEW_LAMPS / 4] = {};
     unsigned frame_ = 0;  ///< since the history began
 };
 

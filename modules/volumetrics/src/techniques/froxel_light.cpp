@@ -33,7 +33,7 @@ int run_of_slices(const Frame& frame) {
 }  // namespace
 
 FroxelLight add_froxel_light(Frame& frame, const FroxelMedia& media, TextureRef columns,
-                             const FroxelHistory* history) {
+                             const FroxelHistory* history, FroxelContent content) {
     const Settings& settings = frame.settings;
     const glm::ivec3 size{settings.froxels.x, settings.froxels.y, settings.froxels.z};
     const auto create = [&](const char* name, bool wanted) {
@@ -41,17 +41,20 @@ FroxelLight add_froxel_light(Frame& frame, const FroxelMedia& media, TextureRef 
         return wanted ? frame.passes.create(name, desc) : TextureRef{};
     };
     const bool keeps = history != nullptr;
+    const bool has_sun = frame.inputs.has_sun && content == FroxelContent::all;
     FroxelLight light{.radiance = create("volumetrics/froxel_radiance", true),
                       .visibility = create("volumetrics/froxel_visibility", keeps),
-                      .sun = create("volumetrics/froxel_sun", keeps && frame.inputs.has_sun),
-                      .lamps = create("volumetrics/froxel_lamps", keeps && frame.inputs.has_lamps)};
+                      .sun = create("volumetrics/froxel_sun", keeps && has_sun),
+                      .lamps = create("volumetrics/froxel_lamps", keeps && frame.inputs.has_lamps),
+                      .content = content};
     // Several height media are rare and slow: they have no program of their own without local media.
     const bool local =
         !frame.media.local.empty() || frame.resources.light_volumes.any() || height_media_axis(frame.media) > 1;
     const int run = run_of_slices(frame);
     const glm::ivec3 group{16, 16, run};
     frame.add({.name = "volumetrics/froxel_light",
-               .program = frame.program(program, {{"LOCAL_MEDIA", local}, {"FROXEL_HISTORY", keeps}}),
+               .program = frame.program(program,
+                                        {{"LOCAL_MEDIA", local}, {"HAS_SUN", has_sun}, {"FROXEL_HISTORY", keeps}}),
                .sources = {{columns},
                            {media.scattering},
                            {media.extinction},
@@ -60,8 +63,9 @@ FroxelLight add_froxel_light(Frame& frame, const FroxelMedia& media, TextureRef 
                .lit = true,
                .light_volumes = true,
                .set =
-                   [history, run](const PassContext&, const gl::Program& shader) {
+                   [history, run, content](const PassContext&, const gl::Program& shader) {
                        shader.set("run", run);
+                       shader.set("many_lamps", static_cast<int>(content == FroxelContent::many_lamps));
                        if (history != nullptr) shader.set("visibility_jitter", history->jitter());
                    },
                .groups = (size + group - 1) / group});

@@ -10,16 +10,20 @@ class FroxelHistory;
 // The steps of froxel_fog.h, see the shaders of the same names. All textures are RGBA16F volumes of the froxels'
 // size; `columns`: froxel_columns().
 
+/// Of which light froxels hold: all; or of the lamps that are not among FrameMedia::few_lamps.
+enum class FroxelContent { all, many_lamps };
+
 /// Without a history only `radiance`.
 struct FroxelLight {
     TextureRef radiance;  ///< light of each slice; with a history without sun and lamps, which froxel_history adds
     /// rgb visible share of the lamps' light, a of the sun, in this frame; < 0: there are none.
     TextureRef visibility;
     TextureRef sun, lamps;  ///< unshadowed light
+    FroxelContent content = FroxelContent::all;
 };
 /// Attenuated by the global media before it.
 [[nodiscard]] FroxelLight add_froxel_light(Frame& frame, const FroxelMedia& media, TextureRef columns,
-                                           const FroxelHistory* history);
+                                           const FroxelHistory* history, FroxelContent content);
 
 /// Averages the visibility over the frames; returns the radiance with the light of sun and lamps.
 [[nodiscard]] TextureRef add_froxel_history(Frame& frame, TextureRef columns, const FroxelLight& light,

@@ -28,7 +28,7 @@ Techniques& techniques() {
         own.add(
             {.name = "off", .help = "No light in media; costs nothing.", .settings = "", .passes = {}, .add = {}});
         for (const auto make : {ray_march, froxel, billboards, particles, shaft_geometry, analytic_fog,
-                                radial_shafts, epipolar, reference})
+                                radial_shafts, epipolar, automatic, reference})
             own.add(make());
         return own;
     }();

@@ -13,6 +13,7 @@ namespace tyndall::volumetrics {
 [[nodiscard]] TechniqueDesc analytic_fog();
 [[nodiscard]] TechniqueDesc radial_shafts();
 [[nodiscard]] TechniqueDesc epipolar();
+[[nodiscard]] TechniqueDesc automatic();
 [[nodiscard]] TechniqueDesc reference();
 
 }  // namespace tyndall::volumetrics
