@@ -121,36 +121,30 @@ void EpipolarSunlight::march(const std::string& name, TextureRef nodes, TextureR
                              TextureRef& target, int rectangles) {
     Permutation permutation = epipolar_permutation(frame_);
     permutation.insert({{"EPIPOLAR", 1}, {"SUN_ALONE", 1}, {"LAMPS", 0}});
-    frame_.add({.name = name,
-                .program = frame_.program(march_program, permutation),
-                .sources = {{frame_.depth},
-                            {noise_volume(frame_), true},
-                            {table_},
-                            {nodes},
-                            {},
-                            {},
-                            {asking},
-                            {wanted}},
-                .targets = {&target},
-                .lit = true,
-                .light_volumes = true,
-                .local_media = true,
-                .set =
-                    [of_samples = static_cast<bool>(asking), tree = frame_.settings.epipolar.tree,
-                     to_pixel = direction_to_pixel(frame_.inputs, frame_.size),
-                     size = glm::ivec2(frame_.passes.desc(target).size)](const PassContext&, const gl::Program& p) {
-                        p.set("of_samples", static_cast<int>(of_samples));
-                        p.set("coarsest_level", coarsest_epipolar_level(tree));
-                        p.set("to_pixel", to_pixel);
-                        p.set("target", size);
-                    },
-                .draw =
-                    [rectangles] {
-                        const gl::VertexArray none("volumetrics epipolar rays");
-                        none.bind();
-                        glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, rectangles);
-                        glBindVertexArray(0);
-                    }});
+    frame_.add(
+        {.name = name,
+         .program = frame_.program(march_program, permutation),
+         .sources = {{frame_.depth}, {noise_volume(frame_), true}, {table_}, {nodes}, {}, {}, {asking}, {wanted}},
+         .targets = {&target},
+         .lit = true,
+         .light_volumes = true,
+         .local_media = true,
+         .set =
+             [of_samples = static_cast<bool>(asking), tree = frame_.settings.epipolar.tree,
+              to_pixel = direction_to_pixel(frame_.inputs, frame_.size),
+              size = glm::ivec2(frame_.passes.desc(target).size)](const PassContext&, const gl::Program& p) {
+                 p.set("of_samples", static_cast<int>(of_samples));
+                 p.set("coarsest_level", coarsest_epipolar_level(tree));
+                 p.set("to_pixel", to_pixel);
+                 p.set("target", size);
+             },
+         .draw =
+             [rectangles] {
+                 const gl::VertexArray none("volumetrics epipolar rays");
+                 none.bind();
+                 glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, rectangles);
+                 glBindVertexArray(0);
+             }});
 }
 
 }  // namespace tyndall::volumetrics

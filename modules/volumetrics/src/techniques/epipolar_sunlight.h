@@ -8,9 +8,9 @@
 
 namespace tyndall::volumetrics {
 
-/// The sunlight of all pixels from few samples along the sun's lines (shaders/volumetrics/light/epipolar_sunlight.glsl):
-/// some samples ask the trees, the others are interpolated between them, pixels between samples of their surface, and
-/// pixels that have none are marched.
+/// The sunlight of all pixels from few samples along the sun's lines
+/// (shaders/volumetrics/light/epipolar_sunlight.glsl): some samples ask the trees, the others are interpolated
+/// between them, pixels between samples of their surface, and pixels that have none are marched.
 class EpipolarSunlight {
   public:
     TextureRef counts;              ///< RG32F, a line: cells that its samples see, samples that ask
