@@ -10,7 +10,9 @@
 uniform mat4 to_pixel;  // of a direction; xy / z
 uniform float tolerance;
 
-const float NOT_SEEN = -1.0;  // 1/m: what is not in the picture
+// In the place of an inverse distance:
+const float NOT_SEEN = -1.0;   // it is not in the picture
+const float NOT_KNOWN = -2.0;  // between samples that differ too much
 
 vec3 sample_direction(EpipolarLines lines, ivec2 at) {
     float round_axis = (float(at.y) + 0.5) / lines.lines_per_radian;

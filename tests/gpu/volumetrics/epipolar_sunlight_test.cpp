@@ -66,7 +66,8 @@ class VolumetricsEpipolarSunlight : public GlTest {
 TEST_F(VolumetricsEpipolarSunlight, TreesFindWhatEveryCellSays) {
     host.shadows = 4;
     host.count_work = true;
-    for (const glm::vec3 to_sun : {glm::vec3(0.1F, 0.3F, -1), glm::vec3(-0.8F, 1, 0.1F), glm::vec3(0.3F, 0.4F, 1)}) {
+    for (const glm::vec3 to_sun :
+         {glm::vec3(0.1F, 0.3F, -1), glm::vec3(-0.8F, 1, 0.1F), glm::vec3(0.3F, 0.4F, 1)}) {
         host.sun_direction = -glm::normalize(to_sun);
         settings.epipolar.tree = true;
         const Frame tree = render(1);
@@ -75,7 +76,8 @@ TEST_F(VolumetricsEpipolarSunlight, TreesFindWhatEveryCellSays) {
         double largest = 0;
         for (int y = 0; y < host.size.y; ++y)
             for (int x = 0; x < host.size.x; ++x)
-                largest = std::max(largest, std::abs(double{tree.scattering.at(x, y)[0]} / cells.scattering.at(x, y)[0] - 1));
+                largest = std::max(
+                    largest, std::abs(double{tree.scattering.at(x, y)[0]} / cells.scattering.at(x, y)[0] - 1));
         EXPECT_LE(largest, 1e-3) << "half a unit of the last place of half floats";
         EXPECT_LT(work(tree, "epipolar", gl::Work::tree_nodes), work(cells, "epipolar", gl::Work::tree_nodes));
     }
@@ -91,10 +93,12 @@ TEST_F(VolumetricsEpipolarSunlight, OfAnOpenViewTreesReadFarLessThanEveryCell) {
 }
 
 TEST_F(VolumetricsEpipolarSunlight, SamplesAgreeWithPixelsWhereverTheSunIs) {
+    settings.epipolar.spacing = 0.5F;
     for (const int shadows : {1, 3}) {
         host.shadows = shadows;
-        for (const glm::vec3 to_sun : {glm::vec3(0.1F, 0.2F, -1), glm::vec3(0.55F, 0.56F, -1), glm::vec3(1, 0.6F, -0.4F),
-                                       glm::vec3(0.3F, 0.3F, 1), glm::vec3(-0.2F, 1, 0.1F), glm::vec3(0.01F, 0.05F, 1)}) {
+        for (const glm::vec3 to_sun :
+             {glm::vec3(0.1F, 0.2F, -1), glm::vec3(0.55F, 0.56F, -1), glm::vec3(1, 0.6F, -0.4F),
+              glm::vec3(0.3F, 0.3F, 1), glm::vec3(-0.2F, 1, 0.1F), glm::vec3(0.01F, 0.05F, 1)}) {
             host.sun_direction = -glm::normalize(to_sun);
             const double found = difference(16).relative_rms;
             std::printf("%d: %.4f\n", shadows, found);
@@ -104,6 +108,7 @@ TEST_F(VolumetricsEpipolarSunlight, SamplesAgreeWithPixelsWhereverTheSunIs) {
 }
 
 TEST_F(VolumetricsEpipolarSunlight, CloserSamplesDifferLess) {
+    settings.epipolar.spacing = 0.25F;
     host.sun_direction = -glm::normalize(glm::vec3(1, 0.6F, -0.4F));
     const double coarse = difference(32).relative_rms, fine = difference(4).relative_rms;
     std::printf("32: %.4f, 4: %.4f\n", coarse, fine);
@@ -115,7 +120,7 @@ TEST_F(VolumetricsEpipolarSunlight, UnshadowedItIsTheSame) {
     host.shadows = 0;
     const Difference found = difference(16);
     EXPECT_LT(found.relative_rms, 0.003);
-    EXPECT_LT(found.largest, 0.02);
+    EXPECT_LT(found.largest, 0.03);
 }
 
 TEST_F(VolumetricsEpipolarSunlight, ColouredExtinctionHeightAndLocalMedia) {
@@ -127,8 +132,10 @@ TEST_F(VolumetricsEpipolarSunlight, ColouredExtinctionHeightAndLocalMedia) {
                     .falloff = 4},
                    {.sigma_s = glm::vec3(0.01F, 0.02F, 0.04F), .rayleigh = true}};
     settings.march.steps = 6;
+    settings.epipolar.spacing = 0.5F;
     EXPECT_LT(difference(8).relative_rms, 0.03);
-    host.local = {{.center = {1, 1, -8}, .half_extent = glm::vec3(3), .sigma_s = glm::vec3(0.2F), .anisotropy = 0.2F}};
+    host.local = {
+        {.center = {1, 1, -8}, .half_extent = glm::vec3(3), .sigma_s = glm::vec3(0.2F), .anisotropy = 0.2F}};
     EXPECT_LT(difference(8).relative_rms, 0.04);
     host.global = {};
     EXPECT_LT(difference(8).relative_rms, 0.06) << "most rays meet no medium";
@@ -153,12 +160,15 @@ TEST_F(VolumetricsEpipolarSunlight, FewRaysAskAndNoPixelIsLeftOfAPlane) {
     host.count_work = true;
     host.view_depth = [](int, int) { return 12.0F; };
     const Frame exact = render(1), found = render(16);
-    const auto nodes = [&](const Frame& frame, const char* pass) { return work(frame, pass, gl::Work::tree_nodes); };
+    const auto nodes = [&](const Frame& frame, const char* pass) {
+        return work(frame, pass, gl::Work::tree_nodes);
+    };
     EXPECT_LT(4 * nodes(found, "epipolar_walk"), nodes(exact, "epipolar"));
     EXPECT_EQ(nodes(found, "epipolar_fix_up"), 0U);
     EXPECT_EQ(nodes(found, "epipolar"), 0U);
     EXPECT_LT(work(found, "epipolar_lines", gl::Work::shadow_lookups),
-              work(exact, "epipolar_lines", gl::Work::shadow_lookups)) << "lines end with what is seen";
+              work(exact, "epipolar_lines", gl::Work::shadow_lookups))
+        << "lines end with what is seen";
 }
 
 TEST_F(VolumetricsEpipolarSunlight, SmallLongAndLowPictures) {
