@@ -21,6 +21,14 @@ vec3 sample_direction(EpipolarLines lines, ivec2 at) {
     return cos(off_axis) * lines.axis + sin(off_axis) * across;
 }
 
+// Where a direction lies among the samples.
+vec2 sample_place(EpipolarLines lines, vec3 direction) {
+    float cosine = dot(direction, lines.axis);
+    vec3 across = direction - cosine * lines.axis;
+    return vec2(atan(length(across), cosine) * lines.samples_per_radian - lines.first_sample,
+                epipolar_line(lines, across) - 0.5);
+}
+
 float forward_cosine(vec3 direction) { return -dot(volumetrics.inverse_view[2].xyz, direction); }
 
 // The pixel a direction falls in; x < 0: none.

@@ -14,10 +14,7 @@ void main() {
     EpipolarLines lines = epipolar_lines(table, 0);
     vec3 direction = view_ray(screen_place(gl_FragCoord.xy)).direction;
     float inverse = inverse_distance(texelFetch(depth_texture, ivec2(gl_FragCoord.xy), 0).r, direction);
-    float cosine = dot(direction, lines.axis);
-    vec3 across = direction - cosine * lines.axis;
-    vec2 place = vec2(atan(length(across), cosine) * lines.samples_per_radian - lines.first_sample,
-                      epipolar_line(lines, across) - 0.5);
+    vec2 place = sample_place(lines, direction);
     bool whole_turn = float(lines.lines) > EPIPOLAR_TWO_PI * lines.lines_per_radian - 0.5;
     ivec2 low = ivec2(floor(place));
     vec2 part = place - vec2(low);

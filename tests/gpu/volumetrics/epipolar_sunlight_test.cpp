@@ -191,6 +191,7 @@ TEST_F(VolumetricsEpipolarSunlight, WithLampsTheyAreTheSame) {
 
 TEST_F(VolumetricsEpipolarSunlight, WithoutSamplesOrSunItsPassesSayWhy) {
     EXPECT_EQ(render(1).skipped.at("volumetrics/epipolar_walk"), "epipolar_step is 1");
+    EXPECT_EQ(render(8).skipped.at("volumetrics/epipolar_view"), "nobody asks for it");
     host.has_sun = false;
     host.lights = {point_light({1, 1, -5}, 20, 30)};
     EXPECT_EQ(render(8).skipped.at("volumetrics/epipolar_walk"), "no sun");
