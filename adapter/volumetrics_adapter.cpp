@@ -136,6 +136,7 @@ void VolumetricsAdapter::add_before_lighting(FrameContext& frame, const GBuffer&
     inputs_.motion = gbuffer.motion;
     inputs_.transparents = transparents;
     inputs_.acceptance = show_acceptance || std::ranges::count(frame.layers, "acceptance") > 0;
+    inputs_.samples = std::ranges::count(frame.layers, "samples") > 0;
     module_->prepare(inputs_, settings);
     const volumetrics::LightTransmittance dimmed = module_->add_light_passes(frame.passes, inputs_, settings);
     if (!dimmed.any) return;
@@ -173,7 +174,8 @@ std::vector<Layer> VolumetricsAdapter::layers() const {
              .texture = in_alpha ? outputs_.scattering : outputs_.transmittance,
              .decode = in_alpha ? Layer::alpha : Layer::rgb,
              .absent = 1},
-            {.name = "acceptance", .texture = outputs_.acceptance, .decode = acceptance_picture}};
+            {.name = "acceptance", .texture = outputs_.acceptance, .decode = acceptance_picture},
+            {.name = "samples", .texture = outputs_.samples}};
 }
 
 void VolumetricsAdapter::forget_history() {

@@ -38,7 +38,7 @@ class VolumetricsAdapter : public FrameModule {
     [[nodiscard]] TextureRef add_display(FrameContext& frame, TextureRef display) override;
     /// scattering in cd/m² and transmittance 0..1 (0 and 1 without a medium); acceptance, the share of earlier
     /// frames in each pixel's light (volumetrics::Outputs), from red (none) to green (all of it), black without a
-    /// temporal filter.
+    /// temporal filter; samples, of technique epipolar with samples (volumetrics::Outputs).
     [[nodiscard]] std::vector<Layer> layers() const override;
     void forget_history() override;
 

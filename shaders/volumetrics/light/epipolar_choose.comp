@@ -1,5 +1,6 @@
 // Which samples of a line of the sun ask the trees, and for each other one the two of them between which it is
-// interpolated: one group for each line. Every `sample_step`-th asks, and so do both sides of a break of depth, that is where the
+// interpolated: one group for each line. Every `sample_step`-th asks, closer near the
+// axis, where all changes fastest, and so do both sides of a break of depth, that is where the
 // inverse distance, linear along a plane, bends. Chosen by bits, as in "Real-Time Volumetric Shadows using 1D Min-Max
 // Mipmaps" and its implementation by Yusov. And how many cells of the line its samples see.
 #include "shaders/volumetrics/light/epipolar_samples.glsl"
@@ -20,6 +21,13 @@ shared float radius[THREADS];         // largest distance of what is seen from t
 shared uint asks[THREADS];            // a bit for each sample of a thread
 
 float inverse_at(int i) { return i < 0 || i >= MOST_SAMPLES ? NOT_SEEN : surface[i]; }
+
+bool is_regular(EpipolarLines lines, int i) {
+    float off_axis = float(i) + lines.first_sample;
+    off_axis = min(off_axis, 0.5 * EPIPOLAR_TWO_PI * lines.samples_per_radian - off_axis);
+    int apart = min(max(1 << findMSB(max(int(off_axis) / 8, 1)), 4), sample_step);
+    return (i & (apart - 1)) == 0;
+}
 
 bool bends(int i) {
     float before = inverse_at(i - 1);
@@ -49,7 +57,7 @@ void main() {
     barrier();
     uint mine = 0u;
     for (int i = begin; i < end; ++i)
-        if (surface[i] != NOT_SEEN && ((i & (sample_step - 1)) == 0 || bends(i))) mine |= 1u << (i - begin);
+        if (surface[i] != NOT_SEEN && (is_regular(lines, i) || bends(i))) mine |= 1u << (i - begin);
     asks[thread] = mine;
     barrier();
     int before = 0;  // samples that ask

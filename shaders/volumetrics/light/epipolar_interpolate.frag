@@ -10,6 +10,9 @@ layout(binding = 3) uniform usampler2D asking;
 layout(binding = 4) uniform sampler2D asked;  // rgb source, a weight: 0 without a medium
 layout(location = 0) out vec4 out_sample;
 
+// Largest relative difference of two samples that are interpolated between: one is three times the other.
+const float MOST_DIFFERENCE = 0.5;
+
 void main() {
     ivec2 at = ivec2(gl_FragCoord.xy);
     EpipolarLines lines = epipolar_lines(table, 0);
@@ -27,7 +30,9 @@ void main() {
         float depth = texelFetch(depth_texture, seen_pixel(direction), 0).r;
         count_work(WORK_TEXTURE_FETCHES, 6u);
         out_sample.rgb = sum > 0.0 ? (weight.x * left.rgb + weight.y * right.rgb) / sum : vec3(-1.0);
-        out_sample.a = inverse_distance(depth, direction);
+        float difference = dot(abs(left.rgb * left.a - right.rgb * right.a), vec3(1.0));
+        float level = dot(left.rgb * left.a + right.rgb * right.a, vec3(1.0));
+        out_sample.a = end - begin <= 1.0 || difference <= MOST_DIFFERENCE * level ? inverse_distance(depth, direction) : NOT_KNOWN;
     }
     out_sample = round_to_half(out_sample);
     flush_work();

@@ -10,13 +10,23 @@
 uniform mat4 to_pixel;  // of a direction; xy / z
 uniform float tolerance;
 
-const float NOT_SEEN = -1.0;  // 1/m: what is not in the picture
+// In the place of an inverse distance:
+const float NOT_SEEN = -1.0;   // it is not in the picture
+const float NOT_KNOWN = -2.0;  // between samples that differ too much
 
 vec3 sample_direction(EpipolarLines lines, ivec2 at) {
     float round_axis = (float(at.y) + 0.5) / lines.lines_per_radian;
     vec3 across = cos(round_axis) * lines.first + sin(round_axis) * cross(lines.axis, lines.first);
     float off_axis = (float(at.x) + lines.first_sample) / lines.samples_per_radian;
     return cos(off_axis) * lines.axis + sin(off_axis) * across;
+}
+
+// Where a direction lies among the samples.
+vec2 sample_place(EpipolarLines lines, vec3 direction) {
+    float cosine = dot(direction, lines.axis);
+    vec3 across = direction - cosine * lines.axis;
+    return vec2(atan(length(across), cosine) * lines.samples_per_radian - lines.first_sample,
+                epipolar_line(lines, across) - 0.5);
 }
 
 float forward_cosine(vec3 direction) { return -dot(volumetrics.inverse_view[2].xyz, direction); }

@@ -14,14 +14,12 @@ void main() {
     EpipolarLines lines = epipolar_lines(table, 0);
     vec3 direction = view_ray(screen_place(gl_FragCoord.xy)).direction;
     float inverse = inverse_distance(texelFetch(depth_texture, ivec2(gl_FragCoord.xy), 0).r, direction);
-    float cosine = dot(direction, lines.axis);
-    vec3 across = direction - cosine * lines.axis;
-    vec2 place = vec2(atan(length(across), cosine) * lines.samples_per_radian - lines.first_sample,
-                      epipolar_line(lines, across) - 0.5);
+    vec2 place = sample_place(lines, direction);
     bool whole_turn = float(lines.lines) > EPIPOLAR_TWO_PI * lines.lines_per_radian - 0.5;
     ivec2 low = ivec2(floor(place));
     vec2 part = place - vec2(low);
     float weights = 0.0;
+    bool not_known = false;
     vec4 lit = vec4(0.0);
     for (int i = 0; i < 4; ++i) {
         ivec2 beside = ivec2(i & 1, i >> 1);
@@ -29,12 +27,13 @@ void main() {
         if (whole_turn) at.y = (at.y + lines.lines) % lines.lines;
         vec4 s = texelFetch(samples, clamp(at, ivec2(0), ivec2(lines.samples, lines.lines) - 1), 0);
         vec2 near = mix(1.0 - part, part, vec2(beside));
+        if (s.a == NOT_KNOWN && near.x * near.y > LEAST) not_known = true;
         float alike = 1.0 - abs(s.a - inverse) / same_surface(inverse);
-        float weight = s.a == NOT_SEEN ? 0.0 : near.x * near.y * max(alike, 0.0);
+        float weight = s.a < 0.0 ? 0.0 : near.x * near.y * max(alike, 0.0);
         weights += weight;
         if (s.r >= 0.0) lit += weight * vec4(s.rgb, 1.0);
     }
     count_work(WORK_TEXTURE_FETCHES, 8u);
-    out_source = round_to_half(vec4(lit.rgb / max(lit.a, 1.0e-7), weights < LEAST ? 0.0 : 1.0));
+    out_source = round_to_half(vec4(lit.rgb / max(lit.a, 1.0e-7), weights < LEAST || not_known ? 0.0 : 1.0));
     flush_work();
 }

@@ -69,6 +69,10 @@ const float NO_OCCLUDER = 1.0e9;
 float sun_occluder(vec3 world) {
     vec3 d = stub_sun_direction.xyz;
     vec2 cross_place = world.xz - d.xz / d.y * (world.y - 4.0);
+    if (stub_options.z == 4.0) {
+        vec2 cell = floor(3.0 * cross_place);
+        return (world.y - 6.0 * fract(43.7 * sin(dot(cell, vec2(12.9, 78.2))))) / d.y;
+    }
     vec3 under = vec3(cross_place.x, 4.0, cross_place.y) + d * 1.0e-3;
     return sun_visibility(under, 0.0) > 0.5 ? -NO_OCCLUDER : (world.y - 4.0) / d.y;
 }

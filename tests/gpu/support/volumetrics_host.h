@@ -73,7 +73,8 @@ class StubHost {
     float slice_depth = 1;
     std::function<bool(int light, int slice)> listed = [](int, int) { return true; };
     /// 0: nothing casts a shadow. 1: a fence in the plane y = 4 shadows the sun, one around each lamp the lamp. 2:
-    /// the half x < 0 of the plane z = -6 shadows lamps. 3: the half x < 0 of the plane y = 4 shadows the sun.
+    /// the half x < 0 of the plane z = -6 shadows lamps. 3: the half x < 0 of the plane y = 4 shadows the sun. 4,
+    /// of shadow maps alone: each of the sun's rays ends at a random height of 0 … 6.
     int shadows = 0;
     bool has_shadow_maps = true;
     std::uint32_t frame_index = 0;

@@ -90,9 +90,9 @@ TEST_F(EpipolarPlanTest, ALampFarAwayTakesFewerLinesThanOneRoundTheEye) {
     EXPECT_EQ(found.lights[0].index, 4U);
     EXPECT_LT(4 * found.lights[0].lines, found.lights[1].lines);
     const auto table = found.table();
-    ASSERT_EQ(table.size(), 3U * 9);
-    EXPECT_EQ(table[3 * 4 + 2].z, static_cast<float>(found.lights[0].cells));
-    EXPECT_EQ(table[3 * 5 + 2].z, 0) << "a lamp out of view has none";
+    ASSERT_EQ(table.size(), 4U * 9);
+    EXPECT_EQ(table[4 * 4 + 2].z, static_cast<float>(found.lights[0].cells));
+    EXPECT_EQ(table[4 * 5 + 2].z, 0) << "a lamp out of view has none";
 }
 
 TEST_F(EpipolarPlanTest, LampsTakeNoMoreRaysThanTheyMay) {
@@ -116,6 +116,43 @@ TEST_F(EpipolarPlanTest, LargePicturesKeepTheSunWithinMemory) {
     settings.epipolar.spacing = 0.25F;
     settings.epipolar.cells = 2048;
     EXPECT_LE(plan().nodes, most_epipolar_nodes / 2);
+}
+
+TEST_F(EpipolarPlanTest, SamplesCoverThePictureAPixelApartAndKeepTheirPlaces) {
+    settings.epipolar.step = 8;
+    for (const glm::vec3 to_sun : {glm::vec3(0.1F, 0.1F, -1), glm::vec3(1, 0.3F, -0.3F), glm::vec3(0, 0.1F, 1)}) {
+        sun_at(to_sun);
+        const EpipolarLines sun = plan().lights.at(0);
+        EXPECT_EQ(sun.first_sample, std::round(sun.first_sample));
+        EXPECT_NEAR(1 / sun.samples_per_radian, 2 / (1.5F * 180), 1e-5F);
+        for (float y = -1; y <= 1; y += 0.5F)
+            for (float x = -1; x <= 1; x += 0.5F) {
+                const glm::vec3 ray = glm::normalize(glm::vec3(x / inputs.projection[0][0], y / 1.5F, -1));
+                const float off_axis = std::acos(glm::clamp(glm::dot(ray, sun.axis), -1.0F, 1.0F));
+                const float place = off_axis * sun.samples_per_radian - sun.first_sample;
+                EXPECT_GE(place, 0);
+                EXPECT_LT(place, static_cast<float>(sun.samples - 1));
+            }
+    }
+    pixels = {8192, 4608};
+    settings.epipolar.spacing = 0.25F;
+    EXPECT_LE(plan().lights.at(0).samples, most_epipolar_samples);
+    settings.epipolar.step = 1;
+    EXPECT_EQ(plan().lights.at(0).samples, 0) << "every pixel asks";
+}
+
+TEST_F(EpipolarPlanTest, ADirectionFallsInThePixelThatShowsIt) {
+    turn(0.7F);
+    const glm::mat4 to_pixel = direction_to_pixel(inputs, {320, 180});
+    for (const glm::vec2 pixel : {glm::vec2(0, 0), glm::vec2(160, 90), glm::vec2(17.25F, 133.5F)}) {
+        const glm::vec2 ndc = 2.0F * pixel / glm::vec2(320, 180) - 1.0F;
+        const glm::vec3 in_view(ndc.x / inputs.projection[0][0], ndc.y / inputs.projection[1][1], -1);
+        const glm::vec4 found = to_pixel * glm::vec4(glm::transpose(glm::mat3(inputs.view)) * in_view, 0);
+        EXPECT_NEAR(found.x / found.z, pixel.x, 1e-3F);
+        EXPECT_NEAR(found.y / found.z, pixel.y, 1e-3F);
+        EXPECT_GT(found.z, 0);
+        EXPECT_LT((to_pixel * glm::vec4(glm::transpose(glm::mat3(inputs.view)) * -in_view, 0)).z, 0) << "behind";
+    }
 }
 
 TEST_F(EpipolarPlanTest, ALampAtTheEyeNeedsNoLines) {

@@ -27,6 +27,7 @@ struct Estimate {
     Sampling sampling = Sampling::exact;  ///< of these two
     std::vector<Part> parts;              ///< at most most_parts
     Fog fog;                              ///< for transparents, where the technique has it
+    TextureRef samples = {};              ///< Outputs::samples
     explicit operator bool() const { return static_cast<bool>(scattering); }
 };
 

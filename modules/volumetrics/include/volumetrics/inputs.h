@@ -87,6 +87,7 @@ struct Inputs {
 
     bool transparents = false;  ///< Outputs::fog is wanted, whatever the technique
     bool acceptance = false;    ///< Outputs::acceptance is wanted
+    bool samples = false;       ///< Outputs::samples is wanted
 
     std::uint32_t frame_index = 0;
     double time = 0;          ///< s

@@ -22,6 +22,8 @@ struct Outputs {
                                     ///< holds for all channels
     TextureRef acceptance = {};     ///< R16F, where Inputs::acceptance asks for it and there is a mean over frames:
                                     ///< share 0 … 1 of what was kept that each pixel took
+    TextureRef samples = {};  ///< RGBA8, where Inputs::samples asks for it, of technique epipolar with samples: how
+                              ///< each pixel's sunlight was found (shaders/volumetrics/light/epipolar_view.frag)
     Fog fog = {};
 };
 

@@ -14,6 +14,7 @@ constexpr float two_pi = 2 * std::numbers::pi_v<float>;
 constexpr float sun_radius = 2;      // m: EPIPOLAR_RADIUS of epipolar.glsl
 constexpr float at_the_eye = 0.02F;  // m: a lamp that near sees what the eye sees
 constexpr int most_lines = 16384;
+constexpr float fewest_round_the_sun = 512;
 
 /// The directions that the picture shows.
 struct Picture {
@@ -95,19 +96,21 @@ EpipolarLines lines_round(const Picture& picture, glm::vec3 axis, float most_ang
     return lines;
 }
 
-/// As many as the angles to the axis that the picture shows need, and one beyond each end.
+/// As many as the angles to the axis that the picture shows need, and one beyond each end. Small pictures have
+/// `fewest_round_the_sun` a turn: see lines_round.
 void place_samples(EpipolarLines& lines, const Picture& picture, float spacing) {
     const float middle = std::acos(std::clamp(glm::dot(picture.middle, lines.axis), -1.0F, 1.0F));
     const float first = std::max(middle - picture.reach, 0.0F);
     const float last = std::min(middle + picture.reach, std::numbers::pi_v<float>);
     const float most = static_cast<float>(most_epipolar_samples - 4) / (last - first);
-    lines.samples_per_radian = std::min(1 / (picture.pixel * spacing), most);
+    lines.samples_per_radian =
+        std::min(std::max(1 / (picture.pixel * spacing), fewest_round_the_sun / two_pi), most);
     lines.first_sample = std::floor(first * lines.samples_per_radian) - 1;
     lines.samples = static_cast<int>(std::ceil(last * lines.samples_per_radian) + 2 - lines.first_sample);
 }
 
 EpipolarLines sun_lines(const Picture& picture, glm::vec3 to_sun, const Settings& settings, float spacing) {
-    EpipolarLines lines = lines_round(picture, to_sun, two_pi, spacing, 512);
+    EpipolarLines lines = lines_round(picture, to_sun, two_pi, spacing, fewest_round_the_sun);
     const float farthest = settings.march.max_distance * largest_sine(picture, to_sun, two_pi);
     lines.cells = settings.epipolar.cells;
     lines.cells_per_unit = static_cast<float>(lines.cells) / std::log1p(farthest / sun_radius);

@@ -81,7 +81,7 @@ TextureRef create_like(Frame& frame, const std::string& pass, TextureRef source,
 }
 
 Outputs reconstruct(Frame& frame, Estimate estimate) {
-    Outputs outputs{.fog = estimate.fog};
+    Outputs outputs{.samples = estimate.samples, .fog = estimate.fog};
     if (!estimate) return outputs;
     const Settings& settings = frame.settings;
     const std::vector<TextureRef*> sampled = textures_of(estimate, Sampling::per_frame);

@@ -124,6 +124,10 @@ Estimate add_epipolar(Frame& frame, bool few_lamps) {
         if (frame.media.uses_grids) permutation["LOCAL_MEDIA"] = 2;
     }
     Estimate estimate = frame.create_estimate();
+    if (sunlight && frame.inputs.samples)
+        estimate.samples = sunlight->add_view();
+    else if (sunlight)
+        frame.skip("volumetrics/epipolar_view", "nobody asks for it");
     frame.add({.name = "volumetrics/epipolar",
                .program = frame.program(program, permutation),
                .sources = {{frame.depth}, {noise_volume(frame), true}, {table}, {nodes}, {}, {}, samples, fixed_up},

@@ -28,6 +28,13 @@ const ProgramDesc unwarp_program{.name = "volumetrics/epipolar_unwarp",
                                  .valid = {}};
 const ProgramRegistry::Registration unwarp_registration(unwarp_program);
 
+const ProgramDesc view_program{.name = "volumetrics/epipolar_view",
+                               .stages = {{GL_VERTEX_SHADER, "shaders/lib/fullscreen.vert"},
+                                          {GL_FRAGMENT_SHADER, "shaders/volumetrics/light/epipolar_view.frag"}},
+                               .axes = {},
+                               .valid = {}};
+const ProgramRegistry::Registration view_registration(view_program);
+
 const ProgramDesc march_program{.name = "volumetrics/epipolar_march",
                                 .stages = {{GL_VERTEX_SHADER, "shaders/volumetrics/light/epipolar_rays.vert"},
                                            {GL_FRAGMENT_SHADER, "shaders/volumetrics/techniques/ray_march.frag"}},
@@ -54,9 +61,9 @@ int round_up(int n) {
 }  // namespace
 
 const std::vector<std::string>& epipolar_sunlight_passes() {
-    static const std::vector<std::string> names{"volumetrics/epipolar_choose", "volumetrics/epipolar_walk",
+    static const std::vector<std::string> names{"volumetrics/epipolar_choose",      "volumetrics/epipolar_walk",
                                                 "volumetrics/epipolar_interpolate", "volumetrics/epipolar_unwarp",
-                                                "volumetrics/epipolar_fix_up"};
+                                                "volumetrics/epipolar_fix_up",      "volumetrics/epipolar_view"};
     return names;
 }
 
@@ -99,6 +106,15 @@ void EpipolarSunlight::add_passes(TextureRef nodes) {
     fixed_up = frame_.create("volumetrics/epipolar_fixed_up");
     const glm::ivec2 tiles = (frame_.size + tile - 1) / tile;
     march("volumetrics/epipolar_fix_up", nodes, {}, unwarped, fixed_up, tiles.x * tiles.y);
+}
+
+TextureRef EpipolarSunlight::add_view() {
+    TextureRef view = frame_.create("volumetrics/epipolar_view", GL_RGBA8);
+    add({.name = "volumetrics/epipolar_view",
+         .program = frame_.program(view_program),
+         .sources = {{table_}, {between_}, {unwarped}},
+         .targets = {&view}});
+    return view;
 }
 
 TextureRef EpipolarSunlight::create(const std::string& name, GLenum format) const {

@@ -20,6 +20,8 @@ class EpipolarSunlight {
     EpipolarSunlight(Frame& frame, const EpipolarLines& sun, TextureRef table);
     /// The others. `nodes`: the lines' trees.
     void add_passes(TextureRef nodes);
+    /// Outputs::samples.
+    [[nodiscard]] TextureRef add_view();
 
   private:
     Frame& frame_;
