@@ -12,6 +12,7 @@
 #include "engine/gl/readback.h"
 #include "engine/render/frame_context.h"
 #include "engine/render/frame_module.h"
+#include "engine/render/glass.h"
 #include "engine/render/layers.h"
 #include "engine/render/light_set.h"
 #include "engine/render/passes/cluster.h"
@@ -123,16 +124,18 @@ LightSources Renderer::Impl::add_lights(FrameContext& frame, const GBuffer& g, c
         lights.set_shadow_tiles([this](std::size_t light) { return shadow_atlas.first_tile(light); });
         lights.upload();
         sample(shadows.atlas);
+        sample(shadows.glass);
         sources.buffers = {clusters.ranges, clusters.lights};
         if (shadows.tiles) sources.buffers.push_back(shadows.tiles);
     } else {
-        for (const char* name : {"depth_pyramid", "light_cull", "cluster", "shadow_atlas"})
+        for (const char* name : {"depth_pyramid", "light_cull", "cluster", "shadow_atlas", "shadow_atlas/glass"})
             passes.skip(name, "no lamp in view");
     }
     const SkyPass::Output dome = sky.add(frame);
     sources.sky = dome.radiance;
     sample(sun.cascades);
     sample(sun.static_map);
+    sample(sun.glass);
     if (facts.has_ambient) sample(dome.irradiance);
     sources.bind = [this, lamps] {
         frame_block.bind(GL_UNIFORM_BUFFER, BINDING_FRAME);
@@ -230,6 +233,7 @@ void Renderer::render(const Scene& scene, const View& view, glm::ivec2 size, con
     r.layer = options.layer;
     r.facts = compute_facts(scene, view);
     r.facts.has_ambient = options.render.ambient > 0;
+    if (options.render.shadows) find_glass(scene, *r.scene, view, r.facts);
     r.lights.update(scene, r.facts.lamps);
     r.passes = PassList();
 

@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -77,6 +78,7 @@ class StubHost {
     /// of shadow maps alone: each of the sun's rays ends at a random height of 0 … 6.
     int shadows = 0;
     bool has_shadow_maps = true;
+    std::optional<glm::vec3> glass;  ///< what it leaves of the light of x < 0
     std::uint32_t frame_index = 0;
     bool count_work = false;
 

@@ -223,6 +223,18 @@ bool is_grid_permutation(const Permutation& p) {
     return (height == p.end() || height->second == MAX_HEIGHT_MEDIA) && (local == p.end() || local->second > 0);
 }
 
+bool is_glass_permutation(const Permutation& p) {
+    if (p.at("GLASS") == 0) return true;
+    const auto value = [&](const char* define, int absent) {
+        const auto found = p.find(define);
+        return found == p.end() ? absent : found->second;
+    };
+    const int grids = value("GRIDS", 0), local = value("LOCAL_MEDIA", 2);
+    return value("HAS_SUN", 0) + value("LAMPS", 0) > 0 && value("CHROMATIC", 1) == 1 &&
+           value("HEIGHT_MEDIA", MAX_HEIGHT_MEDIA) == MAX_HEIGHT_MEDIA && local > 0 && (local > 1 || grids == 1) &&
+           value("LIGHT_VOLUMES", 1 + grids) == 1 + grids;
+}
+
 bool is_sun(const Lamp& lamp, glm::vec3 eye) {
     return glm::distance(eye, lamp.position) > 0.5F * SUN_LAMP_DISTANCE;
 }
@@ -231,6 +243,8 @@ FrameMedia gather_media(const Inputs& inputs, const Settings& settings) {
     FrameMedia media;
     const TechniqueDesc& desc = technique(settings.technique);
     if (!desc.add) return media;
+    media.through_glass = inputs.has_glass && desc.traits.glass && (inputs.has_sun || inputs.has_lamps);
+    media.chromatic = media.through_glass;
     add_global(inputs, media);
     if (desc.traits.local_media) {
         gather_grids(inputs, media);

@@ -2,16 +2,16 @@
 
 #include "frame/resources.h"
 #include "media/froxel_media.h"
+#include "media/media.h"
 #include "techniques/epipolar.h"
 #include "techniques/froxel_fog.h"
-#include "media/media.h"
 #include "techniques/froxel_history.h"
 #include "techniques/sprites.h"
 #include "techniques/techniques.h"
 
-// Each light goes to the estimator that does it best: the sun and the few lamps that light the medium most to epipolar
-// lines, by pixel and sharp; the many other lamps to froxels, whose cost does not grow with the picture; ambient
-// light and emission are closed form along each pixel's ray.
+// Each light goes to the estimator that does it best: the sun and the few lamps that light the medium most to
+// epipolar lines, by pixel and sharp; the many other lamps to froxels, whose cost does not grow with the picture;
+// ambient light and emission are closed form along each pixel's ray.
 
 namespace tyndall::volumetrics {
 namespace {
@@ -42,12 +42,13 @@ const ProgramRegistry::Registration cores_registration(cores_program);
 void add_lamp_cores(Frame& frame, const Fog& lamps, Estimate& estimate) {
     std::vector<std::uint32_t> drawn;
     for (const Lamp& lamp : frame.inputs.lamps)
-        if (!is_sun(lamp, frame.inputs.eye) && std::ranges::find(frame.media.few_lamps, lamp.index, &Lamp::index) == frame.media.few_lamps.end())
+        if (!is_sun(lamp, frame.inputs.eye) &&
+            std::ranges::find(frame.media.few_lamps, lamp.index, &Lamp::index) == frame.media.few_lamps.end())
             drawn.push_back(lamp.index);
     const bool local = !frame.media.local.empty() || frame.resources.light_volumes.any();
     const bool heights = local || height_media_axis(frame.media) > 0;
-    const gl::Program& cores =
-        frame.program(cores_program, {{"LAMPS", 2}, {"LOCAL_MEDIA", local}, {"HEIGHT_MEDIA", heights ? MAX_HEIGHT_MEDIA : 0}});
+    const gl::Program& cores = frame.program(
+        cores_program, {{"LAMPS", 2}, {"LOCAL_MEDIA", local}, {"HEIGHT_MEDIA", heights ? MAX_HEIGHT_MEDIA : 0}});
     frame.add({.name = "volumetrics/lamp_cores",
                .program = cores,
                .sources = {{frame.depth}, {froxel_media(frame).scattering}},
@@ -56,10 +57,8 @@ void add_lamp_cores(Frame& frame, const Fog& lamps, Estimate& estimate) {
                .lit = true,
                .light_volumes = true,
                .state = {.blend = gl::Blend::add},
-               .set =
-                   [to_clip = frame.inputs.projection * frame.inputs.view](const PassContext&, const gl::Program& p) {
-                       p.set("world_to_clip", to_clip);
-                   },
+               .set = [to_clip = frame.inputs.projection * frame.inputs.view](
+                          const PassContext&, const gl::Program& p) { p.set("world_to_clip", to_clip); },
                .draw =
                    [&cores, drawn] {
                        for (const std::uint32_t lamp : drawn) {
@@ -100,7 +99,8 @@ Estimate add(Frame& frame) {
 TechniqueDesc automatic() {
     std::vector<std::string> passes = epipolar_passes();
     for (const char* name : {"volumetrics/froxel_columns", "volumetrics/inject_media", "volumetrics/froxel_light",
-                             "volumetrics/froxel_history", "volumetrics/froxel_accumulate", "volumetrics/many_lamps", "volumetrics/lamp_cores"})
+                             "volumetrics/froxel_history", "volumetrics/froxel_accumulate",
+                             "volumetrics/many_lamps", "volumetrics/lamp_cores"})
         passes.emplace_back(name);
     return {.name = "auto",
             .help = "Sun and the lamps that matter most by epipolar lines, all other lamps by froxels.",

@@ -27,8 +27,9 @@ const ProgramRegistry::Registration lines_registration(lines_program);
 
 /// EPIPOLAR 2 is without the sun, see epipolar_sunlight.h.
 bool is_valid(const Permutation& p) {
-    if (!is_epipolar_permutation(p) || p.at("FEW_LAMPS") > p.at("LAMPS")) return false;
-    return p.at("EPIPOLAR") == 1 || (p.at("HAS_SUN") == 0 && (p.at("GRIDS") == 0 || p.at("LOCAL_MEDIA") == 2));
+    if (!is_epipolar_permutation(p) || !is_glass_permutation(p) || p.at("FEW_LAMPS") > p.at("LAMPS")) return false;
+    return p.at("EPIPOLAR") == 1 ||
+           (p.at("HAS_SUN") == 0 && p.at("GLASS") == 0 && (p.at("GRIDS") == 0 || p.at("LOCAL_MEDIA") == 2));
 }
 
 const ProgramDesc program{.name = "volumetrics/epipolar",
@@ -41,6 +42,7 @@ const ProgramDesc program{.name = "volumetrics/epipolar",
                                    {"HAS_SUN", {0, 1}},
                                    {"LAMPS", {0, 2}},
                                    {"FEW_LAMPS", {0, 1}},  // technique auto
+                                   {"GLASS", {0, 1}},
                                    {"CHROMATIC", {0, 1}},
                                    {"COUNT_WORK", {0, 1}}},
                           .valid = is_valid};
@@ -55,6 +57,13 @@ int rows_of(std::int64_t texels) {
 Inputs with_lamps(Inputs inputs, const std::vector<Lamp>& lamps) {
     inputs.lamps = lamps;
     return inputs;
+}
+
+/// Samples hold light without a colour of its own.
+const char* reason_for_no_samples(const Frame& frame) {
+    if (!frame.inputs.has_sun) return "no sun";
+    if (frame.media.through_glass) return "light comes through glass";
+    return samples_lines(frame.settings) ? nullptr : "epipolar_step is 1";
 }
 
 TextureRef upload_table(Frame& frame, const EpipolarPlan& plan) {
@@ -104,11 +113,11 @@ Estimate add_epipolar(Frame& frame, bool few_lamps) {
         few_lamps ? with_lamps(frame.inputs, frame.media.few_lamps) : frame.inputs, frame.settings, frame.size);
     const TextureRef table = upload_table(frame, plan);
     std::optional<EpipolarSunlight> sunlight;
-    if (frame.inputs.has_sun && samples_lines(frame.settings))
+    const char* without_samples = reason_for_no_samples(frame);
+    if (without_samples == nullptr)
         sunlight.emplace(frame, plan.lights.front(), table);
     else
-        for (const std::string& name : epipolar_sunlight_passes())
-            frame.skip(name, frame.inputs.has_sun ? "epipolar_step is 1" : "no sun");
+        for (const std::string& name : epipolar_sunlight_passes()) frame.skip(name, without_samples);
     const TextureRef nodes = add_lines(frame, plan, table, sunlight ? sunlight->counts : TextureRef{});
     Permutation permutation = epipolar_permutation(frame);
     permutation["EPIPOLAR"] = 1;
