@@ -105,7 +105,9 @@ TextureRef add_lines(Frame& frame, const EpipolarPlan& plan, TextureRef table, T
 
 Estimate add_epipolar(Frame& frame, bool few_lamps) {
     if (!frame.inputs.has_shadow_maps) {
-        for (const char* name : {"volumetrics/epipolar_lines", "volumetrics/epipolar"})
+        std::vector<std::string> names = epipolar_sunlight_passes();
+        names.insert(names.end(), {"volumetrics/epipolar_lines", "volumetrics/epipolar"});
+        for (const std::string& name : names)
             frame.skip(name, "the host has no shaders/interface/shadow_maps.glsl");
         return {};
     }
