@@ -14,7 +14,7 @@ void enable(GLenum capability, bool on) {
 
 void apply_blend(Blend blend) {
     enable(GL_BLEND, blend != Blend::none);
-    glBlendEquation(GL_FUNC_ADD);
+    glBlendEquationSeparate(GL_FUNC_ADD, blend == Blend::filter ? GL_MAX : GL_FUNC_ADD);
     // A dual-source function left behind would make every draw with several targets an error, blended or not.
     if (blend == Blend::none) return glBlendFunc(GL_ONE, GL_ZERO);
     // Premultiplied: alpha is a transmittance, and transmittances multiply.
@@ -22,6 +22,10 @@ void apply_blend(Blend blend) {
         glBlendFuncSeparate(GL_ONE, GL_SRC_ALPHA, GL_ZERO, GL_SRC_ALPHA);
     else if (blend == Blend::over)
         glBlendFuncSeparate(GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
+    else if (blend == Blend::through)
+        glBlendFuncSeparate(GL_ONE, GL_SRC1_COLOR, GL_ZERO, GL_ONE);
+    else if (blend == Blend::filter)
+        glBlendFuncSeparate(GL_ZERO, GL_SRC_COLOR, GL_ONE, GL_ONE);
     else
         glBlendFunc(GL_ONE, GL_ONE);
 }

@@ -14,14 +14,18 @@ struct DrawElementsIndirectCommand {
 };
 
 bool passes(const GpuScene& scene, const Instance& instance, DrawList::Filter filter) {
-    if (scene.material(instance.material).alpha_blend) return false;
+    const bool transparent = scene.material(instance.material).alpha_blend;
     switch (filter) {
         case DrawList::Filter::all:
-            return true;
+            return !transparent;
         case DrawList::Filter::shadow_casters:
-            return instance.cast_shadow;
+            return instance.cast_shadow && !transparent;
         case DrawList::Filter::static_shadow_casters:
-            return instance.cast_shadow && !instance.dynamic;
+            return instance.cast_shadow && !transparent && !instance.dynamic;
+        case DrawList::Filter::glass:
+            return instance.cast_shadow && transparent;
+        case DrawList::Filter::static_glass:
+            return instance.cast_shadow && transparent && !instance.dynamic;
     }
     return false;
 }

@@ -14,8 +14,9 @@ namespace tyndall {
 /// Shaders read the instance from vertex attributes, see GpuScene::bind.
 class DrawList {
   public:
-    enum class Filter { all, shadow_casters, static_shadow_casters };
-    /// Culls on the CPU (conservative boxes) and uploads commands. Materials with alpha_blend are left out.
+    /// Materials with alpha_blend are left out but for glass: those of them that cast shadows.
+    enum class Filter { all, shadow_casters, static_shadow_casters, glass, static_glass };
+    /// Culls on the CPU (conservative boxes) and uploads commands.
     void build(const GpuScene& scene, const Frustum& frustum, Filter filter);
     /// Several views at once (shadow tiles): view i's commands are drawn by draw(i, …).
     void build(const GpuScene& scene, std::span<const Frustum> frusta, Filter filter);

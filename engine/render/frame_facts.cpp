@@ -27,6 +27,10 @@ void add_media(FrameFacts& facts, const Scene& scene, const Frustum& frustum) {
 
 }  // namespace
 
+bool FrameFacts::has_glass() const {
+    return sun_through_glass || std::ranges::any_of(lamps, &Lamp::through_glass);
+}
+
 FrameFacts compute_facts(const Scene& scene, const View& view) {
     FrameFacts facts;
     facts.has_ambient = true;  // the procedural sky is always there

@@ -9,11 +9,13 @@ namespace tyndall {
 struct FrameFacts {
     bool has_sun = false;      ///< a sun with non-zero illuminance
     bool has_ambient = false;  ///< the sky: always, for nights have one; whoever turns ambient light off clears it
+    bool sun_through_glass = false;  ///< find_glass(): some may stand between the sun and what is in view
     bool has_global_medium = false;
     bool has_local_media = false;  ///< bounded media whose bounds are in view
     std::vector<Lamp> lamps;       ///< all that shine, further suns first
     int local_lights_in_view = 0;  ///< of them
     [[nodiscard]] bool has_medium() const { return has_global_medium || has_local_media; }
+    [[nodiscard]] bool has_glass() const;  ///< before the sun or a lamp in view
 };
 
 /// Lights that do not shine and media that neither scatter, absorb nor shine do not count.

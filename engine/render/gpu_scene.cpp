@@ -118,6 +118,7 @@ void GpuScene::upload_materials(const Scene& scene) {
             .metallic_roughness_normal_occlusion =
                 glm::vec4(from.metallic, from.roughness, from.normal_scale, from.occlusion_strength),
             .dielectric_f0 = from.dielectric_f0,
+            .transmission = from.transmission,
             .alpha_mask = from.alpha_mask,
             .alpha_blend = from.alpha_blend,
             .double_sided = from.double_sided,

@@ -52,7 +52,7 @@ class GpuScene {
         glm::vec4 base_color_factor;
         glm::vec4 emissive_alpha_cutoff;                ///< rgb cd/m², a cutoff (< 0: opaque)
         glm::vec4 metallic_roughness_normal_occlusion;  ///< factors
-        float dielectric_f0;
+        float dielectric_f0, transmission;
         bool alpha_mask, alpha_blend, double_sided;
     };
     [[nodiscard]] const GpuMaterial& material(int index) const { return materials_[index]; }

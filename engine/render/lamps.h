@@ -18,6 +18,7 @@ struct Lamp {
     glm::vec3 axis{0, 0, -1};  ///< unit, the way it points
     float cos_outer = -1;      ///< of its cone's half angle; -1: a point lamp
     bool in_view = false;      ///< its sphere of influence meets the view frustum
+    bool through_glass = false;  ///< find_glass(): some may stand before what it lights
 };
 
 constexpr float sun_distance = SUN_LAMP_DISTANCE;  ///< m from the origin, of a further sun

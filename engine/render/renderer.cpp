@@ -12,6 +12,7 @@
 #include "engine/gl/readback.h"
 #include "engine/render/frame_context.h"
 #include "engine/render/frame_module.h"
+#include "engine/render/glass.h"
 #include "engine/render/layers.h"
 #include "engine/render/light_set.h"
 #include "engine/render/passes/cluster.h"
@@ -230,6 +231,7 @@ void Renderer::render(const Scene& scene, const View& view, glm::ivec2 size, con
     r.layer = options.layer;
     r.facts = compute_facts(scene, view);
     r.facts.has_ambient = options.render.ambient > 0;
+    if (options.render.shadows) find_glass(scene, *r.scene, view, r.facts);
     r.lights.update(scene, r.facts.lamps);
     r.passes = PassList();
 

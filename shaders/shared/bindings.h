@@ -32,6 +32,7 @@
 #define UNIT_NOISE 6         // noise_offset.glsl
 #define UNIT_FOG_COLUMNS 6
 #define UNIT_FOG_RADIANCE 7
+#define UNIT_SUN_GLASS 7       // 7 and 15: glass_lookup.glsl, beside 8 to 11 where no fog is applied
 #define UNIT_SUN_CASCADES 8       // 8 to 11: what lights are read from
 #define UNIT_SUN_STATIC 9
 #define UNIT_SHADOW_ATLAS 10
@@ -40,5 +41,6 @@
 #define UNIT_LAMP_VOLUMES 13
 #define UNIT_GRID_SUN 14          // light_transmittance.glsl
 #define UNIT_FOG_OPTICAL_DEPTH 15 // apply.glsl
+#define UNIT_LAMP_GLASS 15
 
 #endif

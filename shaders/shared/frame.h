@@ -24,7 +24,8 @@ struct FrameData {
     mat4 sun_static;                  // the same for the baked map behind the cascades
     vec4 sun_cascade_far;             // view depth (m) where each cascade ends
     vec4 sun_texel;                   // world size (m) of one texel of each cascade
-    vec4 sun_static_texel;            // x world size of one texel of the baked map; y 1/cascade map size; z 1/static map size
+    vec4 sun_static_texel;            // x world size of one texel of the baked map; y 1/cascade map size; z 1/static map size;
+                                      // w side of the sun's glass maps in texels, 0: no glass
     vec4 exposure;                    // x: factor from a unit of light to display; y ambient factor
 };
 

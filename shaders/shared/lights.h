@@ -15,7 +15,7 @@ struct GpuLight {
     vec4 position_range;    // xyz world (m), w range (m)
     vec4 intensity_radius;  // rgb candela in units of light (shaders/shared/frame.h), w radius (m): d² is clamped at radius²
     vec4 direction_type;    // xyz unit, the way it points; w LIGHT_*
-    vec4 cone_shadow;       // x scale, y offset of the spot law clamp(cos * scale + offset, 0, 1)²; z first tile index, -1 = no shadow; w unused
+    vec4 cone_shadow;       // x scale, y offset of the spot law clamp(cos * scale + offset, 0, 1)²; z first tile index, -1 = no shadow; w 1 if glass may stand before what it lights
 };
 
 // A square tile of the shadow atlas. Point lights have six in a row, ordered +X -X +Y -Y +Z -Z. A sun has one, of parallel

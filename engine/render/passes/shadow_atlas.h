@@ -12,6 +12,7 @@
 #include "engine/render/draw_list.h"
 #include "engine/render/frame_context.h"
 #include "engine/render/passes/shadow_casters.h"
+#include "engine/render/passes/shadow_glass.h"
 #include "shaders/shared/lights.h"
 
 namespace tyndall {
@@ -25,23 +26,24 @@ class ShadowAtlasPass {
     struct Output {
         TextureRef atlas;  ///< D32F; empty when no lamp of the scene casts shadows or shadows are off
         BufferRef tiles;   ///< shared::ShadowTile[]
+        TextureRef glass;  ///< RGBA16 array of one layer, half as wide; empty without glass before a lamp in view
     };
     /// Gives the shadow casters among the lamps in view tiles and adds the pass "shadow_atlas" if any must be drawn
-    /// (else skips it with the reason). Lights out of view keep tiles while there is room. Without a shadow-casting
+    /// (else skips it with the reason), and "shadow_atlas/glass" for the tiles of lamps that glass stands before. Lights out of view keep tiles while there is room. Without a shadow-casting
     /// lamp, or with settings.shadows off, everything is freed.
     Output add(FrameContext& context);
     /// Index of a scene light's first tile in the tile buffer, -1 when it has none. Valid after add().
     [[nodiscard]] int first_tile(std::size_t scene_light_index) const;
     /// Tiles that this frame's pass list has drawn.
     [[nodiscard]] int tiles_drawn() const { return tiles_drawn_; }
-    /// Binds texture, sampler and tile buffer (UNIT_SHADOW_ATLAS, BINDING_SHADOW_TILES) for
-    /// shadow_lookup.glsl.
+    /// Binds textures, samplers and tile buffer (UNIT_SHADOW_ATLAS, UNIT_LAMP_GLASS, BINDING_SHADOW_TILES) for
+    /// shadow_lookup.glsl and glass_lookup.glsl.
     void bind() const;
 
   private:
     struct Tile {
         AtlasTile place;
-        std::uint64_t drawn_key = 0;
+        std::uint64_t drawn_key = 0, glass_key = 0;
     };
     struct LightTiles {
         int level = -1;  ///< from shadow_tile_level, of the last time in view
@@ -67,16 +69,19 @@ class ShadowAtlasPass {
     void number_tiles(const FrameContext& context);
     void find_redraws(const FrameContext& context, std::span<const std::size_t> casters);
     void draw(const PassContext& pass, const GpuScene& gpu);
+    void add_glass(FrameContext& context, Output& out);
+    void draw_glass(const PassContext& pass, const GpuScene& gpu, gl::TextureView shadows, const Scene& scene);
 
     ShadowDepth depth_;
     gl::Sampler texels_;
-    gl::Texture atlas_;
+    gl::Texture atlas_, glass_;
+    ShadowGlass glass_filter_;
     gl::Buffer tile_buffer_;
     AtlasAllocator allocator_;
     std::vector<LightTiles> lights_;  // one per scene light
     std::vector<shared::ShadowTile> tile_data_;
-    std::vector<Redraw> redraws_;
-    DrawList draws_;
+    std::vector<Redraw> redraws_, glass_redraws_;
+    DrawList draws_, glass_draws_;
     std::uint64_t frame_ = 0;
     int tiles_drawn_ = 0;
     bool warned_ = false;

@@ -36,11 +36,12 @@ Aabb static_bounds(std::span<const Instance> instances, const Aabb& all) {
     return bounds.empty() ? all : bounds;
 }
 
-ShadowCasters::ShadowCasters(const Scene& scene, const GpuScene& gpu) : scene_(scene), instances_(gpu.instances()) {
+ShadowCasters::ShadowCasters(const Scene& scene, const GpuScene& gpu, bool glass)
+    : scene_(scene), instances_(gpu.instances()) {
     ShadowKey key;
     for (std::size_t i = 0; i < instances_.size(); ++i) {
         const Instance& instance = instances_[i];
-        if (!instance.cast_shadow || gpu.material(instance.material).alpha_blend) continue;
+        if (!instance.cast_shadow || gpu.material(instance.material).alpha_blend != glass) continue;
         if (instance.dynamic) {
             moving_.push_back(i);
             continue;

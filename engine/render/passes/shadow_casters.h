@@ -31,10 +31,10 @@ class ShadowKey {
 /// plains, which would make its texels metres wide; where there is nothing else, those.
 [[nodiscard]] Aabb static_bounds(std::span<const Instance> instances, const Aabb& all);
 
-/// What casts shadows this frame, as keys.
+/// What casts shadows this frame, as keys: what is opaque, or glass.
 class ShadowCasters {
   public:
-    ShadowCasters(const Scene& scene, const GpuScene& gpu);
+    ShadowCasters(const Scene& scene, const GpuScene& gpu, bool glass = false);
     /// Of all casters that never move.
     [[nodiscard]] std::uint64_t static_key() const { return static_key_; }
     /// Of the moving casters that meet a volume, with their places.

@@ -14,6 +14,10 @@ std::string pass_name(int index) {
     return index < SUN_CASCADES ? fmt::format("shadow_sun/cascade_{}", index) : "shadow_sun/static";
 }
 
+std::string glass_pass_name(int index) {
+    return fmt::format("shadow_sun/glass_{}", index);
+}
+
 gl::TextureDesc map_desc(gl::TextureKind kind, int size, int layers) {
     return {.kind = kind, .format = GL_DEPTH_COMPONENT32F, .size = {size, size, layers}};
 }
@@ -25,14 +29,16 @@ void ensure(gl::Texture& texture, const gl::TextureDesc& desc, const char* label
 }  // namespace
 
 ShadowSunPass::ShadowSunPass(ShaderLibrary& shaders)
-    : depth_(shaders), texels_({.min_filter = GL_NEAREST, .mag_filter = GL_NEAREST}, "sun shadow texels") {}
+    : depth_(shaders), texels_({.min_filter = GL_NEAREST, .mag_filter = GL_NEAREST}, "sun shadow texels"), draw_glass_(shaders) {}
 
 void ShadowSunPass::release(FrameContext& context, const std::string& reason) {
     cascades_ = {};
     static_ = {};
+    glass_ = {};
     for (int i = 0; i <= SUN_CASCADES; ++i) {
         maps_[i] = {};
         context.passes.skip(pass_name(i), reason);
+        context.passes.skip(glass_pass_name(i), reason);
     }
     // Every point lies behind the cascades and outside the static map: lit, without a fetch.
     context.frame.sun_cascade_far = glm::vec4(0);
@@ -76,14 +82,15 @@ TextureRef ShadowSunPass::add_map(FrameContext& context, const ShadowCasters& ca
     key.add(std::uint64_t{(is_static ? static_ : cascades_).id()});
     key.add(casters.static_key());
     if (!is_static) key.add(casters.moving_key(volume));
-    if (key.value() == map.drawn_key) {
+    map.key = key.value();
+    if (map.key == map.drawn_key) {
         context.passes.skip(pass_name(index), "unchanged since it was drawn");
         return texture;
     }
     context.passes.add(
         pass_name(index),
         [&](PassBuilder& pass) { texture = pass.attach_depth(texture, 0, is_static ? -1 : index); },
-        [this, &map, volume, is_static, key, &gpu = context.gpu](const PassContext& pass) {
+        [this, &map, volume, is_static, &gpu = context.gpu](const PassContext& pass) {
             pass.bind_framebuffer();
             gl::apply(ShadowDepth::state());
             glClearDepthf(0);
@@ -91,9 +98,61 @@ TextureRef ShadowSunPass::add_map(FrameContext& context, const ShadowCasters& ca
             map.draws.build(gpu, volume,
                             is_static ? DrawList::Filter::static_shadow_casters : DrawList::Filter::shadow_casters);
             depth_.draw(gpu, map.draws, 0, world_to_clip(map.fit), true);
-            map.drawn_key = key.value();
+            map.drawn_key = map.key;
         });
     return texture;
+}
+
+TextureRef ShadowSunPass::add_glass_map(FrameContext& context, const ShadowCasters& casters, int index,
+                                        TextureRef shadows, TextureRef glass) {
+    Map& map = maps_[index];
+    const bool is_static = index == static_map;
+    const Frustum volume = caster_volume(map.fit);
+    ShadowKey key;
+    key.add(map.key);
+    key.add(std::uint64_t{glass_.id()});
+    key.add(casters.static_key());
+    if (!is_static) key.add(casters.moving_key(volume));
+    if (key.value() == map.glass_key) {
+        context.passes.skip(glass_pass_name(index), "unchanged since it was drawn");
+        return glass;
+    }
+    context.passes.add(
+        glass_pass_name(index),
+        [&](PassBuilder& pass) {
+            pass.sample(shadows);
+            glass = pass.attach_color(glass, 0, index);
+        },
+        [this, &map, volume, index, key, shadows, &gpu = context.gpu](const PassContext& pass) {
+            pass.bind_framebuffer();
+            ShadowGlass::clear();
+            map.glass.build(gpu, volume,
+                            index == static_map ? DrawList::Filter::static_glass : DrawList::Filter::glass);
+            draw_glass_.draw(gpu, map.glass, 0,
+                             {.world_to_clip = world_to_clip(map.fit),
+                              .nearness = glm::transpose(map.fit.world_to_texture)[2],
+                              .shadows = pass.texture(shadows),
+                              .layer = index,
+                              .size = glass_.size().x,
+                              .depth_clamp = true});
+            map.glass_key = key.value();
+        });
+    return glass;
+}
+
+void ShadowSunPass::add_glass(FrameContext& context, Output& out) {
+    if (!context.facts.sun_through_glass) {
+        glass_ = {};
+        for (int i = 0; i <= SUN_CASCADES; ++i)
+            context.passes.skip(glass_pass_name(i), "no glass between the sun and what is in view");
+        return;
+    }
+    ensure(glass_, ShadowGlass::desc(context.settings.cascade_size, SUN_CASCADES + 1), "sun glass");
+    context.frame.sun_static_texel.w = static_cast<float>(context.settings.cascade_size);
+    const ShadowCasters casters(context.scene, context.gpu, true);
+    out.glass = context.passes.import("sun glass", glass_);
+    for (int i = 0; i <= SUN_CASCADES; ++i)
+        out.glass = add_glass_map(context, casters, i, i == static_map ? out.static_map : out.cascades, out.glass);
 }
 
 ShadowSunPass::Output ShadowSunPass::add(FrameContext& context) {
@@ -113,6 +172,7 @@ ShadowSunPass::Output ShadowSunPass::add(FrameContext& context) {
     Output out{context.passes.import("sun cascades", cascades_), context.passes.import("sun static", static_)};
     for (int i = 0; i < SUN_CASCADES; ++i) out.cascades = add_map(context, casters, i, out.cascades);
     out.static_map = add_map(context, casters, static_map, out.static_map);
+    add_glass(context, out);
     return out;
 }
 
@@ -121,6 +181,8 @@ void ShadowSunPass::bind() const {
     glBindTextureUnit(UNIT_SUN_STATIC, static_.id());
     glBindSampler(UNIT_SUN_CASCADES, texels_.id());
     glBindSampler(UNIT_SUN_STATIC, texels_.id());
+    glBindTextureUnit(UNIT_SUN_GLASS, glass_.id());
+    glBindSampler(UNIT_SUN_GLASS, texels_.id());
 }
 
 }  // namespace tyndall
