@@ -190,6 +190,7 @@ constexpr Row rows[] = {
     {"materials[].extensions.KHR_materials_ior.ior", Kind::number},
     {"materials[].extensions.KHR_materials_specular.specularFactor", Kind::number},
     {"materials[].extensions.KHR_materials_specular.specularColorFactor", Kind::numbers},
+    {"materials[].extensions.KHR_materials_transmission.transmissionFactor", Kind::number},
     {"cameras", Kind::list},
     {"cameras[].name", Kind::text},
     {"cameras[].type", Kind::text},

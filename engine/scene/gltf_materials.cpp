@@ -16,14 +16,14 @@ class Pictures {
   public:
     explicit Pictures(const GltfFile& file) : file_(file) {}
 
-    /// The index of a material's picture; -1 where it has none.
-    int index(int texture, int tex_coord, const std::string& what) {
+    /// The index of a material's picture; -1 where it has none. `opaque`: with an alpha of 1.
+    int index(int texture, int tex_coord, bool opaque, const std::string& what) {
         if (texture == -1) return -1;
         if (tex_coord != 0)
             file_.skip("{}: texture coordinates {} are not supported, set 0 is used", what, tex_coord);
         const tinygltf::Texture& from = file_.at(file_.model().textures, texture, what + ": texture");
         (void)file_.at(file_.model().images, from.source, what + ": image");
-        const Use use{from.source, sampling(from.sampler, what)};
+        const Use use{from.source, sampling(from.sampler, what), opaque};
         const auto found = std::ranges::find(uses_, use);
         if (found == uses_.end()) {
             uses_.push_back(use);
@@ -53,6 +53,7 @@ class Pictures {
     struct Use {
         int image;
         Sampling sampling;
+        bool opaque;
         bool operator==(const Use&) const = default;
     };
 
@@ -87,6 +88,8 @@ class Pictures {
         std::ranges::transform(image.pixels, to.rgba.begin(), [](float v) {
             return static_cast<std::uint8_t>(std::clamp(v, 0.0f, 1.0f) * 255.0f + 0.5f);
         });
+        if (use.opaque)
+            for (std::size_t i = 3; i < to.rgba.size(); i += 4) to.rgba[i] = 255;
         return to;
     }
 
@@ -123,6 +126,14 @@ float load_dielectric_f0(const GltfFile& file, const tinygltf::Material& from, c
     return static_cast<float>(std::min(amplitude * amplitude * factor * color, 1.0));
 }
 
+float load_transmission(const GltfFile& file, const tinygltf::Material& from, const std::string& what) {
+    constexpr const char* name = "KHR_materials_transmission";
+    if (file.extension(from, name, "transmissionTexture") != nullptr)
+        file.skip("{}: transmissionTexture is not supported", what);
+    const auto* value = file.extension(from, name, "transmissionFactor");
+    return value == nullptr ? 0 : file.number(value->GetNumberAsDouble(), what + ": transmissionFactor", 0, 1);
+}
+
 /// What an exporter leaves of a material that glTF cannot express, such as one of a volume alone.
 void tell_if_empty(const GltfFile& file, const tinygltf::Material& from, const Material& to,
                    const std::string& what) {
@@ -149,21 +160,26 @@ Material load_material(const GltfFile& file, const tinygltf::Material& from, Pic
     to.normal_scale = file.number(from.normalTexture.scale, what + ": normal scale", -1e4, 1e4);
     to.occlusion_strength = file.number(from.occlusionTexture.strength, what + ": occlusion strength", 0, 1);
 
-    const auto texture = [&](const auto& info, const char* slot) {
-        return pictures.index(info.index, info.texCoord, fmt::format("{}: {}", what, slot));
+    if (from.alphaMode != "OPAQUE" && from.alphaMode != "MASK" && from.alphaMode != "BLEND")
+        file.fail("{}: alphaMode {} given, OPAQUE, MASK or BLEND expected", what, from.alphaMode);
+    to.transmission = load_transmission(file, from, what);
+    to.alpha_mask = from.alphaMode == "MASK" && to.transmission == 0;
+    to.alpha_blend = from.alphaMode == "BLEND" || to.transmission > 0;
+    if (from.alphaMode == "MASK" && to.transmission > 0)
+        file.skip("{}: alphaMode MASK is taken as BLEND, as it transmits light", what);
+    const bool alpha_is_one = to.alpha_blend && from.alphaMode == "OPAQUE";
+    if (alpha_is_one) to.base_color.a = 1;
+    to.alpha_cutoff = file.number(from.alphaCutoff, what + ": alphaCutoff", 0);
+    to.double_sided = from.doubleSided;
+
+    const auto texture = [&](const auto& info, const char* slot, bool opaque = false) {
+        return pictures.index(info.index, info.texCoord, opaque, fmt::format("{}: {}", what, slot));
     };
-    to.base_color_picture = texture(pbr.baseColorTexture, "baseColorTexture");
+    to.base_color_picture = texture(pbr.baseColorTexture, "baseColorTexture", alpha_is_one);
     to.metallic_roughness_picture = texture(pbr.metallicRoughnessTexture, "metallicRoughnessTexture");
     to.normal_picture = texture(from.normalTexture, "normalTexture");
     to.occlusion_picture = texture(from.occlusionTexture, "occlusionTexture");
     to.emissive_picture = texture(from.emissiveTexture, "emissiveTexture");
-
-    if (from.alphaMode != "OPAQUE" && from.alphaMode != "MASK" && from.alphaMode != "BLEND")
-        file.fail("{}: alphaMode {} given, OPAQUE, MASK or BLEND expected", what, from.alphaMode);
-    to.alpha_mask = from.alphaMode == "MASK";
-    to.alpha_blend = from.alphaMode == "BLEND";
-    to.alpha_cutoff = file.number(from.alphaCutoff, what + ": alphaCutoff", 0);
-    to.double_sided = from.doubleSided;
     tell_if_empty(file, from, to, what);
     return to;
 }

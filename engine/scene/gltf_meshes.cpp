@@ -127,6 +127,9 @@ Mesh load_primitive(const GltfFile& file, const tinygltf::Primitive& from, const
     mesh.indices = load_indices(file, from, mesh.vertices.size(), what);
     if (from.attributes.contains("TEXCOORD_0")) fill("TEXCOORD_0", &Vertex::uv);
     load_colors(file, from, mesh, what);
+    if (from.material >= 0 && scene.materials[static_cast<std::size_t>(mesh.material)].alpha_blend &&
+        file.model().materials[static_cast<std::size_t>(from.material)].alphaMode == "OPAQUE")
+        for (Vertex& v : mesh.vertices) v.color.a = 1;
     const bool has_normals = from.attributes.contains("NORMAL");
     const bool has_tangents =
         has_normals && from.attributes.contains("TANGENT");  // glTF: without, they are ignored

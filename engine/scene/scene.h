@@ -56,6 +56,10 @@ struct Material {
     int base_color_picture = -1, metallic_roughness_picture = -1, normal_picture = -1, occlusion_picture = -1,
         emissive_picture = -1;
     bool alpha_mask = false, alpha_blend = false, double_sided = false;
+    /// KHR_materials_transmission, 0..1; above 0 only with alpha_blend, and with an alpha of 1 where the file says
+    /// OPAQUE. Light that crosses a transparent surface is multiplied by (1 - alpha) + alpha * transmission *
+    /// colour.
+    float transmission = 0;
     float alpha_cutoff = 0.5f;
 };
 

@@ -195,6 +195,10 @@ TEST_F(GltfBadInput, EveryDamagedPartIsNamed) {
         {set("/materials/0/extensions", {{"KHR_materials_specular", {{"specularFactor", 2}}}}), "specularFactor"},
         {set("/materials/0/extensions", {{"KHR_materials_specular", {{"specularColorFactor", {1, 1}}}}}),
          "specularColorFactor"},
+        {set("/materials/0/extensions", {{"KHR_materials_transmission", {{"transmissionFactor", 1.5}}}}),
+         "transmissionFactor: 1.5 given, a number in [0, 1] expected"},
+        {set("/materials/0/extensions", {{"KHR_materials_transmission", {{"transmissionFactor", "1"}}}}),
+         "KHR_materials_transmission.transmissionFactor: \"1\" given, a number expected"},
         {set("/materials/0/alphaMode", "GLASS"), "alphaMode"},
         // nodes
         {set("/nodes/2/children", json::array({1})), "cycle"},

@@ -251,16 +251,23 @@ TEST_F(GltfFiles, WhatIsIgnoredIsNamedInOneLine) {
     primitive["attributes"]["_CURVATURE"] = 0;
     b.doc["nodes"][0]["extras"] = {{"hp", 3}, {"cast_shadow", true}};
     b.doc["scenes"][0]["extras"] = {{"media ", "[]"}, {"fog", "x"}, {"exposure", 1}};
-    b.doc["extensionsUsed"] = {"KHR_materials_transmission", "KHR_lights_punctual"};
+    b.doc["extensionsUsed"] = {"KHR_materials_clearcoat", "KHR_lights_punctual"};
     (void)load_heard(b);
     EXPECT_THAT(log_, HasSubstr("extras ignored: \"fog\" of a scene, \"media \" of a scene, \"hp\" of a node\n"));
-    EXPECT_THAT(log_, HasSubstr("extensions ignored: KHR_materials_transmission\n"));
+    EXPECT_THAT(log_, HasSubstr("extensions ignored: KHR_materials_clearcoat\n"));
     EXPECT_THAT(log_, HasSubstr("attributes ignored: COLOR_1\n"));
     EXPECT_EQ(std::ranges::count(log_, '\n'), 3);
     // A material of a volume alone, as an exporter leaves it.
     b.doc["materials"] = {{{"name", "fog"}, {"doubleSided", true}, {"pbrMetallicRoughness", json::object()}}};
     (void)load_heard(b);
     EXPECT_THAT(log_, HasSubstr("material 0 \"fog\": it says nothing of its surface, drawn as white metal\n"));
+    b.doc["materials"] = {
+        {{"alphaMode", "MASK"},
+         {"extensions",
+          {{"KHR_materials_transmission", {{"transmissionFactor", 1}, {"transmissionTexture", {{"index", 0}}}}}}}}};
+    (void)load_heard(b);
+    EXPECT_THAT(log_, HasSubstr("material 0 \"\": transmissionTexture is not supported\n"));
+    EXPECT_THAT(log_, HasSubstr("material 0 \"\": alphaMode MASK is taken as BLEND, as it transmits light\n"));
     // Of a file that is refused, the reason alone is told.
     b.doc["nodes"][0]["mesh"] = 7;
     EXPECT_THROW((void)load_heard(b), Error);

@@ -229,6 +229,49 @@ TEST_F(Gltf, MaterialsWithAllTheirParts) {
     EXPECT_THAT(std::vector(picture.rgba.end() - 4, picture.rgba.end()), ElementsAre(255, 0, 128, 64));
 }
 
+TEST_F(Gltf, WhatTransmitsLightIsTransparent) {
+    const auto glass = [](double transmission, const char* mode) {
+        return json{
+            {"pbrMetallicRoughness", {{"baseColorFactor", {1, 0, 0, 0.5}}, {"baseColorTexture", {{"index", 0}}}}},
+            {"emissiveTexture", {{"index", 0}}},
+            {"alphaMode", mode},
+            {"extensions", {{"KHR_materials_transmission", {{"transmissionFactor", transmission}}}}}};
+    };
+    GltfBuilder b;
+    b.doc["extensionsRequired"] = json::array({"KHR_materials_transmission"});
+    b.doc["images"] = {{{"bufferView", b.view(png({1, 1}, {1, 0, 0.5f, 0.25f}))}}};
+    b.doc["textures"] = {{{"source", 0}}};
+    b.doc["materials"] = {glass(0.75, "OPAQUE"), glass(0.5, "BLEND"), glass(0.5, "MASK"), glass(0, "OPAQUE"),
+                          glass(0, "MASK")};
+    for (int i = 0; i < 5; ++i) {
+        json& primitive = b.triangle();
+        primitive["material"] = i;
+        primitive["attributes"]["COLOR_0"] =
+            b.accessor<float>({1, 1, 1, 0.5f, 1, 1, 1, 0.5f, 1, 1, 1, 0.5f}, GltfBuilder::f32, "VEC4");
+    }
+    const Scene scene = load(b);
+    ASSERT_EQ(scene.materials.size(), 5u);
+    const float transmission[] = {0.75f, 0.5f, 0.5f, 0, 0};
+    const bool blend[] = {true, true, true, false, false}, mask[] = {false, false, false, false, true};
+    for (std::size_t i = 0; i < 5; ++i) {
+        EXPECT_EQ(scene.materials[i].transmission, transmission[i]) << i;
+        EXPECT_EQ(scene.materials[i].alpha_blend, blend[i]) << i;
+        EXPECT_EQ(scene.materials[i].alpha_mask, mask[i]) << i;
+    }
+    // Alpha is 1 where the file says OPAQUE, and what the file holds elsewhere.
+    const auto alphas = [&](std::size_t i) {
+        const Material& m = scene.materials[i];
+        return glm::vec3(m.base_color.a,
+                         scene.pictures[static_cast<std::size_t>(m.base_color_picture)].rgba[3] / 255.0f,
+                         scene.meshes[i].vertices[2].color.a);
+    };
+    EXPECT_EQ(alphas(0), glm::vec3(1));
+    EXPECT_NEAR(glm::distance(alphas(1), glm::vec3(0.5f, 0.25f, 0.5f)), 0, 1e-2f);
+    EXPECT_NEAR(glm::distance(alphas(2), glm::vec3(0.5f, 0.25f, 0.5f)), 0, 1e-2f);
+    EXPECT_EQ(scene.pictures.size(), 2u);
+    EXPECT_NE(scene.materials[0].emissive_picture, scene.materials[0].base_color_picture);
+}
+
 TEST_F(Gltf, NodesMatricesAndInstancing) {
     GltfBuilder b;
     b.triangle();
