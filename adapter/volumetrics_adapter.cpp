@@ -84,6 +84,7 @@ void add_lights(volumetrics::Inputs& inputs, const FrameContext& frame, const Li
     inputs.light_textures = sources.textures;
     inputs.light_buffers = sources.buffers;
     inputs.bind_lighting = sources.bind;
+    inputs.has_glass = facts.has_glass();
     inputs.has_shadow_maps = true;
 }
 

@@ -42,6 +42,7 @@ void LightSet::update(const Scene& scene, std::span<const Lamp> lamps) {
     for (const Lamp& lamp : lamps) {
         const Light& light = scene.lights[lamp.light];
         lights_.push_back(gpu_light(light, node_pose(scene, light.node), -1));
+        lights_.back().cone_shadow.w = lamp.through_glass ? 1.0f : 0.0f;
         lights_.back().intensity_radius *= glm::vec4(glm::vec3(1 / scene.light_unit()), 1);
         scene_index_.push_back(lamp.light);
     }

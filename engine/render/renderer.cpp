@@ -124,16 +124,18 @@ LightSources Renderer::Impl::add_lights(FrameContext& frame, const GBuffer& g, c
         lights.set_shadow_tiles([this](std::size_t light) { return shadow_atlas.first_tile(light); });
         lights.upload();
         sample(shadows.atlas);
+        sample(shadows.glass);
         sources.buffers = {clusters.ranges, clusters.lights};
         if (shadows.tiles) sources.buffers.push_back(shadows.tiles);
     } else {
-        for (const char* name : {"depth_pyramid", "light_cull", "cluster", "shadow_atlas"})
+        for (const char* name : {"depth_pyramid", "light_cull", "cluster", "shadow_atlas", "shadow_atlas/glass"})
             passes.skip(name, "no lamp in view");
     }
     const SkyPass::Output dome = sky.add(frame);
     sources.sky = dome.radiance;
     sample(sun.cascades);
     sample(sun.static_map);
+    sample(sun.glass);
     if (facts.has_ambient) sample(dome.irradiance);
     sources.bind = [this, lamps] {
         frame_block.bind(GL_UNIFORM_BUFFER, BINDING_FRAME);

@@ -6,6 +6,10 @@
 
 #include "shaders/engine/shadow_lookup.glsl"
 
+#ifndef GLASS
+#define GLASS 0
+#endif
+
 #if GLASS
 layout(binding = UNIT_SUN_GLASS) uniform sampler2DArray sun_glass_maps;  // the cascades, and the baked map
 layout(binding = UNIT_LAMP_GLASS) uniform sampler2DArray lamp_glass_map;

@@ -31,7 +31,8 @@ void main() {
                  clamp((view_depth - frame.depth.x) / radius, 0.0, 1.0);
     float alpha = clamp(opacity * puff(corner, opacity_radius_depth_seed.w) * soft, 0.0, 1.0);
     if (alpha > 0.001) {
-        color = blended(alpha * radiance, alpha, gl_FragCoord.xy * frame.viewport.zw, view_depth);
+        Blended puff = blended(alpha * radiance, vec3(alpha), gl_FragCoord.xy * frame.viewport.zw, view_depth);
+        color = vec4(puff.color, puff.hidden.r);
     } else {
         color = vec4(0.0);
     }

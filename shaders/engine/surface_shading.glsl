@@ -9,7 +9,11 @@
 #include "shaders/lib/lamp_segment.glsl"
 #include "shaders/lib/octahedral.glsl"
 #include "shaders/lib/work.glsl"
+#ifndef GLASS
+#define GLASS 0
+#endif
 #if SHADOWS
+#include "shaders/engine/glass_lookup.glsl"
 #include "shaders/engine/shadow_lookup.glsl"
 #endif
 #if MEDIUM_TRANSMITTANCE
@@ -45,6 +49,9 @@ void add_sun(Surface s, inout Reflected sum) {
 #if SHADOWS
     illuminance *= sun_shadow_surface(s.world, s.normal, s.view_depth);
 #endif
+#if GLASS
+    illuminance *= sun_glass(s.world, s.view_depth);
+#endif
 #if MEDIUM_TRANSMITTANCE
     illuminance *= medium_sun_transmittance(s.world, to_sun);
 #endif
@@ -70,6 +77,9 @@ void add_lamps(Surface s, inout Reflected sum) {
         vec3 illuminance = light.intensity_radius.rgb * attenuation;
 #if SHADOWS
         illuminance *= light_shadow_surface(light, s.world, s.normal);
+#endif
+#if GLASS
+        illuminance *= light_glass(light, s.world);
 #endif
 #if MEDIUM_TRANSMITTANCE
         illuminance *= medium_lamp_transmittance(index, s.world, to_light, d);

@@ -1,11 +1,13 @@
-// Alpha-blended surfaces, shaded as lighting.frag shades the G-buffer's and fogged at their own depth. Alpha is the share of
-// the surface that is there to scatter light: diffuse and emitted light scale with it, the reflection of a smooth boundary
-// such as glass does not.
+// Transparent surfaces, shaded as lighting.frag shades the G-buffer's and fogged at their own depth. Alpha is the share of
+// the surface that is there: diffuse and emitted light scale with it, the reflection of a smooth boundary such as glass does
+// not. What transmits light does not scatter it. What is seen through the surface is filtered as light is (glass_filter).
+#include "shaders/engine/glass_filter.glsl"
 #include "shaders/engine/material.glsl"
 #include "shaders/engine/transparent_blend.glsl"
 #include "shaders/engine/surface_shading.glsl"
 
-layout(location = 0) out vec4 color;
+layout(location = 0, index = 0) out vec4 color;
+layout(location = 0, index = 1) out vec4 through;
 
 void main() {
     vec4 base_color = material_base_color();
@@ -24,6 +26,9 @@ void main() {
     s.occlusion = clamp(material_occlusion(), 0.0, 1.0);
     s.dielectric_f0 = min(dielectric_f0, BRDF_F0_STORED);
     Reflected light = surface_light(s);
-    color = blended(alpha * (light.diffuse + material_emissive()) + light.specular, alpha, s.uv, s.view_depth);
+    vec3 radiance = alpha * ((1.0 - transmission) * light.diffuse + material_emissive()) + light.specular;
+    Blended surface = blended(radiance, 1.0 - glass_filter(base_color), s.uv, s.view_depth);
+    color = vec4(surface.color, 0.0);
+    through = vec4(1.0 - surface.hidden, 0.0);
     flush_work();
 }

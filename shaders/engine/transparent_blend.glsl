@@ -1,4 +1,4 @@
-// What a transparent fragment adds to the picture, for gl::Blend::over: dst = src.rgb + dst (1 - src.a).
+// What a transparent fragment adds to the picture: dst = color + dst (1 - hidden).
 #ifndef ENGINE_TRANSPARENT_BLEND_GLSL
 #define ENGINE_TRANSPARENT_BLEND_GLSL
 
@@ -20,18 +20,22 @@
 #include "shaders/volumetrics/frame/apply.glsl"
 #endif
 
-// color: radiance, pre-multiplied by the coverage alpha (highlights whole); screen: 0..1; view_depth: m.
-// Where src <= limit * alpha and dst <= limit, the sum is <= limit too: so what is brighter than that hides what is behind
-// it, and no number of fragments leaves the range of half floats. This concerns a sun's highlight on clear glass.
-vec4 blended(vec3 color, float alpha, vec2 screen, float view_depth) {
+struct Blended {
+    vec3 color;
+    vec3 hidden;
+};
+
+// color: radiance, pre-multiplied by the coverage (highlights whole); hidden: the share of what is behind; screen: 0..1;
+// view_depth: m. Where color <= limit * hidden and dst <= limit, the sum is <= limit too: so what is brighter than that hides
+// what is behind it, and no number of fragments leaves the range of half floats. This concerns a sun's highlight on clear glass.
+Blended blended(vec3 color, vec3 hidden, vec2 screen, float view_depth) {
     const float limit = 65000.0;
-    vec4 src = vec4(color, alpha);
 #if FOG
-    src = apply_volumetrics(color, alpha, screen, view_depth);
+    color = apply_volumetrics(color, hidden, screen, view_depth);
 #endif
-    src.rgb = clamp(src.rgb, 0.0, limit);
-    src.a = clamp(max(src.a, max(src.r, max(src.g, src.b)) / limit), 0.0, 1.0);
-    return src;
+    color = clamp(color, 0.0, limit);
+    float brightest = max(color.r, max(color.g, color.b)) / limit;
+    return Blended(color, clamp(max(hidden, brightest), 0.0, 1.0));
 }
 
 #endif

@@ -119,6 +119,7 @@ class TransparentFog : public Transparent {
         } else {
             pane(90, material(glm::vec3(0)));
             if (kind == Kind::glass) pane(depth, glass(1, glm::vec3(0), emissive));
+            builder_.scene.nodes.back().cast_shadow = false;  // fog is compared, not its shadow
             if (kind == Kind::particle) particle(depth, emissive);
         }
         return middle();

@@ -15,11 +15,13 @@ const ProgramDesc program{
      {"SHADOWS", {0, 1}},
      {"MEDIUM_TRANSMITTANCE", {0, 1}},
      {"LIGHT_VOLUMES", {0, 1, 2}},
+     {"GLASS", {0, 1}},
      {"COUNT_WORK", {0, 1}}},
     [](const Permutation& p) {
         const bool lights = p.at("HAS_SUN") != 0 || p.at("HAS_LAMPS") != 0;
         if (p.at("LIGHT_VOLUMES") != 0 && p.at("MEDIUM_TRANSMITTANCE") == 0) return false;
         if (p.at("LIGHT_VOLUMES") == 2 && p.at("HAS_SUN") == 0) return false;
+        if (p.at("GLASS") != 0 && p.at("SHADOWS") == 0) return false;
         return lights || (p.at("SHADOWS") == 0 && p.at("MEDIUM_TRANSMITTANCE") == 0);
     }};
 const ProgramRegistry::Registration registration(program);
@@ -33,6 +35,7 @@ Permutation permutation(const FrameContext& frame, const LightSources& sources) 
                               {"SHADOWS", frame.settings.shadows && lights},
                               {"MEDIUM_TRANSMITTANCE", 0},
                               {"LIGHT_VOLUMES", 0},
+                              {"GLASS", frame.facts.has_glass()},
                               {"COUNT_WORK", frame.count_work}});
     return defines;
 }

@@ -31,15 +31,17 @@ bool any_casts(const Scene& scene) {
 }  // namespace
 
 ShadowAtlasPass::ShadowAtlasPass(ShaderLibrary& shaders)
-    : depth_(shaders), texels_({.min_filter = GL_NEAREST, .mag_filter = GL_NEAREST}, "shadow atlas texels") {}
+    : depth_(shaders), texels_({.min_filter = GL_NEAREST, .mag_filter = GL_NEAREST}, "shadow atlas texels"), glass_filter_(shaders) {}
 
 void ShadowAtlasPass::release(FrameContext& context, const char* reason) {
     atlas_ = {};
+    glass_ = {};
     tile_buffer_ = {};
     draws_ = {};
     lights_.clear();
     tile_data_.clear();
     context.passes.skip("shadow_atlas", reason);
+    context.passes.skip("shadow_atlas/glass", reason);
 }
 
 // Fills level and wanted of the lights in view.
@@ -183,6 +185,7 @@ void ShadowAtlasPass::find_redraws(const FrameContext& context, std::span<const 
             key.add(data.rect);
             key.add(occluders.static_key());
             key.add(near_moving ? occluders.moving_key(Frustum::from(data.world_to_clip)) : ShadowKey().value());
+            light.tiles[face].key = key.value();
             if (key.value() != light.tiles[face].drawn_key) redraws_.push_back({i, face, key.value(), data});
         }
     }
@@ -207,6 +210,75 @@ void ShadowAtlasPass::draw(const PassContext& pass, const GpuScene& gpu) {
         tile.drawn_key = redraw.key;
     }
     tiles_drawn_ = static_cast<int>(redraws_.size());
+}
+
+void ShadowAtlasPass::find_glass_redraws(const FrameContext& context) {
+    const ShadowCasters glass(context.scene, context.gpu, true);
+    glass_redraws_.clear();
+    for (const Lamp& lamp : context.facts.lamps) {
+        if (!lamp.through_glass) continue;
+        LightTiles& light = lights_[lamp.light];
+        for (std::size_t face = 0; face < light.tiles.size(); ++face) {
+            const shared::ShadowTile& data = tile_data_[light.first + face];
+            ShadowKey key;
+            key.add(light.tiles[face].key);
+            key.add(std::uint64_t{glass_.id()});
+            key.add(glass.static_key());
+            key.add(glass.moving_key(Frustum::from(data.world_to_clip)));
+            if (key.value() != light.tiles[face].glass_key)
+                glass_redraws_.push_back({lamp.light, face, key.value(), data});
+        }
+    }
+}
+
+void ShadowAtlasPass::draw_glass(const PassContext& pass, const FrameContext& context, gl::TextureView shadows) {
+    std::vector<Frustum> frusta;
+    for (const Redraw& redraw : glass_redraws_) frusta.push_back(Frustum::from(redraw.data.world_to_clip));
+    glass_draws_.build(context.gpu, frusta, DrawList::Filter::glass);
+    pass.bind_framebuffer();
+    for (std::size_t i = 0; i < glass_redraws_.size(); ++i) {
+        const Redraw& redraw = glass_redraws_[i];
+        Tile& tile = lights_[redraw.light].tiles[redraw.tile];
+        const glm::ivec2 origin = tile.place.origin / 2;
+        const int size = tile.place.size / 2;
+        glEnable(GL_SCISSOR_TEST);
+        glViewport(origin.x, origin.y, size, size);
+        glScissor(origin.x, origin.y, size, size);
+        ShadowGlass::clear();
+        const bool is_sun = context.scene.lights[redraw.light].type == LightType::sun;
+        glass_filter_.draw(context.gpu, glass_draws_, static_cast<int>(i),
+                           {.world_to_clip = redraw.data.world_to_clip,
+                            .nearness = tile_nearness(redraw.data, is_sun),
+                            .shadows = shadows,
+                            .size = glass_.size().x});
+        tile.glass_key = redraw.key;
+    }
+}
+
+void ShadowAtlasPass::add_glass(FrameContext& context, Output& out) {
+    const char* name = "shadow_atlas/glass";
+    if (std::ranges::none_of(context.facts.lamps, &Lamp::through_glass)) {
+        glass_ = {};
+        context.passes.skip(name, "no glass before a lamp in view");
+        return;
+    }
+    const gl::TextureDesc desc = ShadowGlass::desc(atlas_.size().x / 2, 1);
+    if (!glass_ || glass_.desc() != desc) glass_ = gl::Texture(desc, "lamp glass");
+    out.glass = context.passes.import("lamp glass", glass_);
+    find_glass_redraws(context);
+    if (glass_redraws_.empty()) {
+        context.passes.skip(name, "unchanged since it was drawn");
+        return;
+    }
+    context.passes.add(
+        name,
+        [&](PassBuilder& pass) {
+            pass.sample(out.atlas);
+            out.glass = pass.attach_color(out.glass, 0, 0);
+        },
+        [this, &context, atlas = out.atlas](const PassContext& pass) {
+            draw_glass(pass, context, pass.texture(atlas));
+        });
 }
 
 ShadowAtlasPass::Output ShadowAtlasPass::add(FrameContext& context) {
@@ -236,15 +308,16 @@ ShadowAtlasPass::Output ShadowAtlasPass::add(FrameContext& context) {
     find_redraws(context, casters);
 
     Output out{context.passes.import("shadow atlas", atlas_),
-               context.passes.import_buffer("shadow tiles", tile_buffer_.id())};
-    if (redraws_.empty()) {
+               context.passes.import_buffer("shadow tiles", tile_buffer_.id()),
+               {}};
+    if (redraws_.empty())
         context.passes.skip("shadow_atlas",
                             casters.empty() ? "no shadow-casting lamp in view" : "unchanged since it was drawn");
-        return out;
-    }
-    context.passes.add(
-        "shadow_atlas", [&](PassBuilder& pass) { out.atlas = pass.attach_depth(out.atlas); },
-        [this, &gpu = context.gpu](const PassContext& pass) { draw(pass, gpu); });
+    else
+        context.passes.add(
+            "shadow_atlas", [&](PassBuilder& pass) { out.atlas = pass.attach_depth(out.atlas); },
+            [this, &gpu = context.gpu](const PassContext& pass) { draw(pass, gpu); });
+    add_glass(context, out);
     return out;
 }
 
@@ -255,6 +328,8 @@ int ShadowAtlasPass::first_tile(std::size_t scene_light_index) const {
 void ShadowAtlasPass::bind() const {
     glBindTextureUnit(UNIT_SHADOW_ATLAS, atlas_.id());
     glBindSampler(UNIT_SHADOW_ATLAS, texels_.id());
+    glBindTextureUnit(UNIT_LAMP_GLASS, glass_.id());
+    glBindSampler(UNIT_LAMP_GLASS, texels_.id());
     if (tile_buffer_) tile_buffer_.bind(GL_SHADER_STORAGE_BUFFER, BINDING_SHADOW_TILES);
 }
 

@@ -43,6 +43,7 @@ class ShadowAtlasPass {
   private:
     struct Tile {
         AtlasTile place;
+        std::uint64_t key = 0;  ///< of this frame
         std::uint64_t drawn_key = 0, glass_key = 0;
     };
     struct LightTiles {
@@ -70,7 +71,8 @@ class ShadowAtlasPass {
     void find_redraws(const FrameContext& context, std::span<const std::size_t> casters);
     void draw(const PassContext& pass, const GpuScene& gpu);
     void add_glass(FrameContext& context, Output& out);
-    void draw_glass(const PassContext& pass, const GpuScene& gpu, gl::TextureView shadows, const Scene& scene);
+    void find_glass_redraws(const FrameContext& context);
+    void draw_glass(const PassContext& pass, const FrameContext& context, gl::TextureView shadows);
 
     ShadowDepth depth_;
     gl::Sampler texels_;

@@ -169,7 +169,7 @@ ShadowSunPass::Output ShadowSunPass::add(FrameContext& context) {
     fit(context, -glm::vec3(node_pose(context.scene, light.node)[2]));
 
     const ShadowCasters casters(context.scene, context.gpu);
-    Output out{context.passes.import("sun cascades", cascades_), context.passes.import("sun static", static_)};
+    Output out{context.passes.import("sun cascades", cascades_), context.passes.import("sun static", static_), {}};
     for (int i = 0; i < SUN_CASCADES; ++i) out.cascades = add_map(context, casters, i, out.cascades);
     out.static_map = add_map(context, casters, static_map, out.static_map);
     add_glass(context, out);

@@ -175,9 +175,10 @@ void TransparentPass::draw_instance(const FrameContext& frame, const gl::Program
     const GpuScene::GpuMaterial& material = frame.gpu.material(instance.material);
     const GpuScene::MeshRange& range = frame.gpu.range(instance.mesh);
     frame.gpu.bind(drawn_);
+    shader.set("transmission", material.transmission);
     bind_material(shader, material, instance.mirrored, frame.scene.light_unit());
     const auto draw_faces = [&](GLenum cull) {
-        gl::apply({.depth_test = true, .cull = cull, .clockwise = instance.mirrored, .blend = gl::Blend::over});
+        gl::apply({.depth_test = true, .cull = cull, .clockwise = instance.mirrored, .blend = gl::Blend::through});
         const std::uintptr_t offset = range.first_index * sizeof(std::uint32_t);
         glDrawElementsInstancedBaseVertexBaseInstance(GL_TRIANGLES, static_cast<GLsizei>(range.index_count),
                                                       GL_UNSIGNED_INT, reinterpret_cast<const void*>(offset), 1,

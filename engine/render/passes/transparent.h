@@ -12,8 +12,8 @@
 
 namespace tyndall {
 
-/// Alpha-blended surfaces and particles, over the finished picture of the opaque ones: lit and shadowed as those
-/// are; modules may change what each adds to the picture, such as fog it at its own depth. They are drawn back to
+/// Transparent surfaces and particles, over the finished picture of the opaque ones: lit and shadowed as those
+/// are, but without the colour of glass before the light; modules may change what each adds to the picture, such as fog it at its own depth. They are drawn back to
 /// front by the view depth of their middle, an instance as a whole: surfaces that cut each other, or a small one
 /// before the near part of a large one, may blend in the wrong order.
 class TransparentPass {

@@ -147,16 +147,16 @@ FogInFront fog_at(vec2 uv, float view_depth) {
     return FogInFront(march.radiance, vec3(march.transmittance));
 }
 
-// A fragment at a view depth [m] in front of the already fogged picture, to be blended as dst = src.rgb + dst (1 - src.a).
-// `color` is its radiance pre-multiplied by `alpha`, its coverage; what is not covered, such as a highlight on glass, is
-// added to it whole.
+// A fragment at a view depth [m] in front of the already fogged picture, to be blended as dst = color + dst (1 - alpha).
+// `color` is its radiance pre-multiplied by its coverage, highlights on glass whole; alpha: the share that it hides of each
+// channel of what is behind it, for grey fragments the coverage.
 //     Behind d the ray carries B, at the eye the picture shows dst = S(0,d) + T(0,d) B. With the fragment it is
 //     S(0,d) + T(0,d) (color + (1 - alpha) B) = [T(0,d) color + alpha S(0,d)] + (1 - alpha) dst:
-// the fog before the fragment is already in dst but for the part that the fragment covers. Any transmittance, coloured or
-// not, needs no more than the one blend factor. alpha 1 is an opaque surface in fog, alpha 0 a light in it.
-vec4 apply_volumetrics(vec3 color, float alpha, vec2 uv, float view_depth) {
+// the fog before the fragment is already in dst but for the part that the fragment hides. Any transmittance, coloured or
+// not, needs no other blend factor. alpha 1 is an opaque surface in fog, alpha 0 a light in it.
+vec3 apply_volumetrics(vec3 color, vec3 alpha, vec2 uv, float view_depth) {
     FogInFront fog = fog_at(uv, view_depth);
-    return vec4(fog.transmittance * color + alpha * fog.scattering, alpha);
+    return fog.transmittance * color + alpha * fog.scattering;
 }
 
 #endif

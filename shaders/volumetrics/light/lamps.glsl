@@ -13,12 +13,6 @@
 #include "shaders/volumetrics/media/scattering.glsl"
 #include "shaders/volumetrics/light/visibility.glsl"
 
-// 1: visibility is kept from frame to frame (froxel_history.comp), so that light is wanted with and without it, and it
-// alone is sampled beside the ray.
-#ifndef FROXEL_HISTORY
-#define FROXEL_HISTORY 0
-#endif
-
 // Rounds of all loops of the shader for each lamp that reaches all that it lights: see expect_lamps. Where a driver would end
 // the loops early, every nth lamp of a list is taken, n times as bright, beginning at another for another `place`.
 uint lamp_rounds = 0u;
@@ -79,8 +73,8 @@ vec3 lamps_at(Ray ray, float t, float t_visibility, Medium m, out vec3 unshadowe
         to_lamp /= max(distance, 1.0e-6);
         if (is_spot(light)) attenuation *= spot_cone(-dot(to_lamp, light.direction_type.xyz), light.cone_shadow.xy);
         if (attenuation <= 0.0) continue;
-        float visible = lamp_visibility(index, light, visibility_point(ray, t_visibility));
-        if (FROXEL_HISTORY == 0 && visible <= 0.0) continue;
+        Visibility visible = lamp_visibility(index, light, visibility_point(ray, t_visibility));
+        if (FROXEL_HISTORY == 0 && is_dark(visible)) continue;
         vec3 scattered = light.intensity_radius.rgb *
                          exp(-to_extinction(lamp_optical_depth(point.y, to_lamp, distance) +
                                                                   local_lamp_optical_depth(index, -to_lamp, distance))) *
@@ -237,7 +231,7 @@ vec3 lamp_over_segment(Ray ray, Segment segment, FoundLamp found, inout vec3 uns
                                             light.cone_shadow.xy);
     }
 
-    float visible = lamp_share(ray, found.index, light, lamp, vec2(reach.begin, reach.end), parts, segment.offset);
+    Visibility visible = lamp_share(ray, found.index, light, lamp, vec2(reach.begin, reach.end), parts, segment.offset);
     unshadowed += light.intensity_radius.rgb * sum;
     return visible * light.intensity_radius.rgb * sum;
 }

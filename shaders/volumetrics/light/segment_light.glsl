@@ -15,7 +15,7 @@
 struct SegmentLight {
     vec3 diffuse;  // ambient light and emission
     vec3 sun;      // unshadowed
-    float sun_visibility;
+    Visibility sun_visibility;
     vec3 lamps;
     vec3 unshadowed_lamps;
 };
@@ -48,6 +48,19 @@ vec3 local_sun_transmittance(Ray ray, Segment segment, float fall) {
     return vec3(1.0);
 #endif
 }
+
+// FROXEL_HISTORY keeps one number for the visibility of the sun: so the colour of glass is the light's own, that on the ray.
+#if GLASS && FROXEL_HISTORY
+vec3 glass_over_segment(Ray ray, Segment segment, float fall) {
+    vec3 sum = vec3(0.0);
+    for (int i = 0; i < 2; ++i) {
+        float t = mix(segment.begin, segment.end, equal_transmittance(0.25 + 0.5 * float(i), fall));
+        count_work(WORK_TEXTURE_FETCHES, 4u);
+        sum += sun_filter(ray.origin + ray.direction * t, t * ray.forward_cosine);
+    }
+    return 0.5 * sum;
+}
+#endif
 #endif
 
 // segment.offset: 0..1, where the segment is sampled, see below. `m` and `optics`: its medium. sun_front: the optical
@@ -55,7 +68,7 @@ vec3 local_sun_transmittance(Ray ray, Segment segment, float fall) {
 SegmentLight segment_light_parts(Ray ray, Segment segment, Medium m, Optics optics, vec3 ambient,
                                  inout Extinction sun_front) {
     float path_length = segment.end - segment.begin;
-    SegmentLight light = SegmentLight(vec3(0.0), vec3(0.0), 1.0, vec3(0.0), vec3(0.0));
+    SegmentLight light = SegmentLight(vec3(0.0), vec3(0.0), Visibility(1.0), vec3(0.0), vec3(0.0));
     light.diffuse = (m.sigma_s * ambient + m.emission) * optics.effective_length;
 
 #if HAS_SUN
@@ -64,6 +77,9 @@ SegmentLight segment_light_parts(Ray ray, Segment segment, Medium m, Optics opti
     float fall = sunlight_fall(ray, segment, sun.x);
     light.sun_visibility = sun_share(ray, segment.begin, segment.end, fall, segment.offset);
     light.sun = sun_scattering(ray, m, sun.effective_length) * local_sun_transmittance(ray, segment, fall);
+#if GLASS && FROXEL_HISTORY
+    light.sun *= glass_over_segment(ray, segment, fall);
+#endif
 #endif
 
 #if LAMPS == 1

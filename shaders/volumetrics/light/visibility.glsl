@@ -1,5 +1,6 @@
 // The visible share of the light that a part of a view ray gathers: EPIPOLAR 0 by one lookup, at a point that an offset
 // (0..1) chooses, so that the mean over all offsets is the share; 1 by the trees of epipolar_share.glsl, with no offset.
+// GLASS: it has a colour, that of the glass which the light has come through.
 #ifndef VOLUMETRICS_VISIBILITY_GLSL
 #define VOLUMETRICS_VISIBILITY_GLSL
 
@@ -16,39 +17,69 @@
 #if EPIPOLAR
 #include "shaders/volumetrics/light/epipolar_share.glsl"
 #endif
+#ifndef GLASS
+#define GLASS 0
+#endif
+#if GLASS
+#define Visibility vec3
+#else
+#define Visibility float
+#endif
+// 1: visibility is kept from frame to frame (froxel_history.comp), so that light is wanted with and without it, and it
+// alone is sampled beside the ray.
+#ifndef FROXEL_HISTORY
+#define FROXEL_HISTORY 0
+#endif
+
+bool is_dark(float visible) { return visible <= 0.0; }
+bool is_dark(vec3 visible) { return all(lessThanEqual(visible, vec3(0.0))); }
 
 // Where visibility is sampled for a point of the ray.
 vec3 visibility_point(Ray ray, float t) { return ray.origin + ray.visibility_direction * t; }
 
-float lamp_visibility(uint index, GpuLight light, vec3 point) {
-    if (light.cone_shadow.z < 0.0) return 1.0;
+Visibility lamp_visibility(uint index, GpuLight light, vec3 point) {
+    if (light.cone_shadow.z < 0.0) return Visibility(1.0);
     count_work(WORK_SHADOW_LOOKUPS, 1u);
+#if GLASS
+    count_work(WORK_TEXTURE_FETCHES, 4u);
+    return light_visibility(index, light, point) * light_filter(index, light, point);
+#else
     return light_visibility(index, light, point);
+#endif
 }
 
 #if HAS_SUN
+Visibility sun_visibility_at(vec3 point, float view_depth) {
+    count_work(WORK_SHADOW_LOOKUPS, 1u);
+#if GLASS && !FROXEL_HISTORY
+    count_work(WORK_TEXTURE_FETCHES, 4u);
+    return sun_visibility(point, view_depth) * sun_filter(point, view_depth);
+#else
+    return Visibility(sun_visibility(point, view_depth));
+#endif
+}
+
 // Of sunlight that falls by exp(-fall) from `begin` to `end`.
 #if EPIPOLAR
 EpipolarRay sun_epipolar_ray = EpipolarRay(0, 1, 0.0, 0.0, 1.0, 0.0, 1.0);  // set once a pixel
 
-float sun_share(Ray ray, float begin, float end, float fall, float offset) {
+Visibility sun_share(Ray ray, float begin, float end, float fall, float offset) {
     return epipolar_share(sun_epipolar_ray, Gathering(begin, end, fall, vec4(0.0), false));
 }
 #else
-float sun_share(Ray ray, float begin, float end, float fall, float offset) {
+Visibility sun_share(Ray ray, float begin, float end, float fall, float offset) {
     float t = mix(begin, end, equal_transmittance(offset, fall));
-    count_work(WORK_SHADOW_LOOKUPS, 1u);
-    return sun_visibility(visibility_point(ray, t), t * ray.forward_cosine);
+    return sun_visibility_at(visibility_point(ray, t), t * ray.forward_cosine);
 }
 #endif
 #endif
 
 // Of a lamp's light over [reach.x, reach.y] of the ray, of which each node of lamp_segment has its part.
-float lamp_share(Ray ray, uint index, GpuLight light, LampRay lamp, vec2 reach, vec4 parts, float offset) {
+Visibility lamp_share(Ray ray, uint index, GpuLight light, LampRay lamp, vec2 reach, vec4 parts, float offset) {
 #if EPIPOLAR
-    if (light.cone_shadow.z < 0.0) return 1.0;
+    if (light.cone_shadow.z < 0.0) return Visibility(1.0);
     EpipolarRay of_lamp = epipolar_ray(1 + int(index), ray.direction);
-    if (of_lamp.cells == 0) return 1.0;  // what is at the eye sees what the eye sees
+    if (of_lamp.cells == 0) return Visibility(1.0);  // what is at the eye sees what the eye sees
     return epipolar_share(of_lamp, Gathering(reach.x, reach.y, 0.0, parts, true));
 #else
     // Over all offsets the point is distributed as the light is: in the inverse square (Kulla and Fajardo 2012), and in

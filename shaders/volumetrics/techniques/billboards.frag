@@ -75,9 +75,8 @@ March sheet(Ray ray, vec2 part, float offset) {
 
     vec3 radiance = (m.sigma_s * ambient + m.emission) * path;
 #if HAS_SUN
-    count_work(WORK_SHADOW_LOOKUPS, 1u);
-    float visible = sun_visibility(point, t * ray.forward_cosine);
-    if (visible > 0.0) {
+    Visibility visible = sun_visibility_at(point, t * ray.forward_cosine);
+    if (!is_dark(visible)) {
         vec3 arriving = exp(-(sun_optical_depth(point.y, -sun_direction()) + local_sun_optical_depth(point)));
         radiance += visible * arriving * sun_scattering(ray, m, path);
     }

@@ -120,7 +120,7 @@ void store_slice(ivec3 froxel, SliceLight slice, Extinction transmittance) {
     vec3 scale = vec3(transmittance / slice.share);
     vec4 visibility = vec4(-1.0);
 #if HAS_SUN
-    visibility.a = light.sun_visibility;
+    visibility.a = vec3(light.sun_visibility).r;
     imageStore(froxel_sun, froxel, round_to_half(vec4(scale * light.sun, 0.0)));
 #endif
 #if LAMPS
@@ -167,7 +167,7 @@ void main() {
     for (; froxel.z <= last; ++froxel.z) {
         float end = ray_distance_from_view_depth(froxel_slice_begin(froxel.z + 1, size.z), ray.forward_cosine);
         Extinction transmittance = exp(-depth);
-        SliceLight slice = SliceLight(SegmentLight(vec3(0.0), vec3(0.0), -1.0, vec3(0.0), vec3(0.0)), Extinction(1.0));
+        SliceLight slice = SliceLight(SegmentLight(vec3(0.0), vec3(0.0), Visibility(-1.0), vec3(0.0), vec3(0.0)), Extinction(1.0));
 #if FROXEL_HISTORY
         ray.visibility_direction = jittered_direction(ray, froxel, column_width, column_height);
 #endif

@@ -147,8 +147,7 @@ ParticleSprite lit_particle(vec3 center, vec4 clip, float share) {
     vec3 light = m.sigma_s * ambient;
     if (medium >= 0) light += m.emission;
 #if HAS_SUN
-    count_work(WORK_SHADOW_LOOKUPS, 1u);
-    float visible = sun_visibility(point, distance * ray.forward_cosine);
+    Visibility visible = sun_visibility_at(point, distance * ray.forward_cosine);
     light += visible * exp(-(sun_optical_depth(point.y, -sun_direction()) + local_sun_optical_depth(point))) * sun_scattering(ray, m, Extinction(1.0));
 #endif
     light = light * through + lamp_light(ray, begin, end, m);

@@ -7,9 +7,9 @@
 #define CHROMATIC 1
 
 #include "shaders/interface/lights.glsl"
-#include "shaders/interface/shadows.glsl"
 #include "shaders/lib/work.glsl"
 #include "shaders/volumetrics/light/segment.glsl"
+#include "shaders/volumetrics/light/visibility.glsl"
 #if LOCAL_MEDIA
 #include "shaders/volumetrics/media/local_media.glsl"
 #endif

@@ -5,7 +5,6 @@
 // Where lamps are many a dispatch does not finish them: it says so, and the next one goes on at the list entry that a
 // pixel has kept in the alpha channels of the images.
 #define HAS_SUN 0
-#define LAMPS 2
 
 #include "shaders/volumetrics/techniques/reference.glsl"
 #include "shaders/volumetrics/light/lamps.glsl"
@@ -72,10 +71,10 @@ vec3 scattered(Ray ray, Span span, float begin, float t, GpuLight light, uint in
     to_lamp /= max(distance, 1.0e-6);
     float inverse_range = lamp_inverse_range(light);
     float s = distance_squared * inverse_range * inverse_range;
-    float strength = clamp(1.0 - s * s, 0.0, 1.0);
+    Visibility strength = Visibility(clamp(1.0 - s * s, 0.0, 1.0));
     if (is_spot(light)) strength *= spot_cone(-dot(to_lamp, light.direction_type.xyz), light.cone_shadow.xy);
-    if (strength > 0.0) strength *= lamp_visibility(index, light, point);
-    if (strength <= 0.0) return vec3(0.0);
+    if (!is_dark(strength)) strength *= lamp_visibility(index, light, point);
+    if (is_dark(strength)) return vec3(0.0);
     Medium m = medium_at(point, masks.on_ray);
     float advance = t - begin;
     vec3 depth = volumetrics.homogeneous_sigma_t.rgb * advance +

@@ -8,9 +8,8 @@ const float FAR = 1.0e9;  // m
 vec3 sun_source(Ray ray, float t, Medium m, MediaMask towards_sun) {
 #if HAS_SUN
     vec3 point = ray.origin + ray.direction * t;
-    count_work(WORK_SHADOW_LOOKUPS, 1u);
-    float visible = sun_visibility(point, t * ray.forward_cosine);
-    if (visible <= 0.0) return vec3(0.0);
+    Visibility visible = sun_visibility_at(point, t * ray.forward_cosine);
+    if (is_dark(visible)) return vec3(0.0);
     vec3 to_sun = -sun_direction();
     int work = 0;
     vec3 depth = sun_optical_depth(point.y, to_sun) + local_optical_depth(point, to_sun, FAR, towards_sun, work);

@@ -17,6 +17,7 @@ struct TechniqueTraits {
     /// frames.
     Sampling sampling = Sampling::exact;
     bool any_resolution = false;       ///< draws at Frame::size; else always at the host's resolution
+    bool glass = true;                 ///< light takes the colours of glass; else it comes as through clear air
     bool local_media = true;           ///< sees local media; else only those that fill space
     bool unseen_local_media = false;   ///< wants them also where only light on its way passes through them
     bool needs_global_medium = false;  ///< adds nothing without one

@@ -68,9 +68,23 @@ std::optional<int> standard_axis(const Frame& frame, const std::string& define) 
     if (define == "LAMPS")
         return frame.inputs.has_lamps ? 1 + static_cast<int>(frame.settings.light.lamp_integration) : 0;
     if (define == "LIGHT_VOLUMES") return frame.resources.light_volumes.axis();
-    if (define == "CHROMATIC") return frame.media.chromatic;
+    if (define == "GLASS") return frame.media.through_glass;
+    if (define == "CHROMATIC") return frame.media.chromatic || frame.media.through_glass;
     if (define == "COUNT_WORK") return frame.inputs.count_work;
     return std::nullopt;
+}
+
+/// One program serves many frames with glass, see is_glass_permutation.
+void make_glass_permutation(Permutation& p) {
+    const auto lit = [&](const char* define) { return p.contains(define) && p[define] != 0; };
+    if (!lit("HAS_SUN") && !lit("LAMPS")) p["GLASS"] = 0;
+    if (p["GLASS"] == 0) return;
+    const auto set = [&](const char* define, int value) {
+        if (p.contains(define)) p[define] = value;
+    };
+    set("HEIGHT_MEDIA", MAX_HEIGHT_MEDIA);
+    if (p.contains("LOCAL_MEDIA") && p["LOCAL_MEDIA"] < 2) p["LOCAL_MEDIA"] = p["GRIDS"] = 1;
+    set("LIGHT_VOLUMES", 1 + (p.contains("GRIDS") ? p["GRIDS"] : 0));
 }
 
 }  // namespace
@@ -83,7 +97,7 @@ Estimate Frame::create_estimate(glm::ivec2 pixels) const {
     const gl::TextureDesc desc{.format = GL_RGBA16F, .size = {pixels, 1}};
     Estimate estimate;
     estimate.scattering = passes.create("volumetrics/scattering", desc);
-    if (media.chromatic) estimate.transmittance = passes.create("volumetrics/transmittance", desc);
+    if (media.chromatic || media.through_glass) estimate.transmittance = passes.create("volumetrics/transmittance", desc);
     return estimate;
 }
 
@@ -98,6 +112,7 @@ const gl::Program& Frame::program(const ProgramDesc& desc, const Permutation& ow
         if (permutation["GRIDS"] != 0 && permutation.contains("HEIGHT_MEDIA"))
             permutation["HEIGHT_MEDIA"] = MAX_HEIGHT_MEDIA;
     }
+    if (permutation.contains("GLASS")) make_glass_permutation(permutation);
     return shaders.get(desc, permutation);
 }
 

@@ -208,6 +208,18 @@ bool is_grid_permutation(const Permutation& p) {
     return (height == p.end() || height->second == MAX_HEIGHT_MEDIA) && (local == p.end() || local->second > 0);
 }
 
+bool is_glass_permutation(const Permutation& p) {
+    if (p.at("GLASS") == 0) return true;
+    const auto value = [&](const char* define, int absent) {
+        const auto found = p.find(define);
+        return found == p.end() ? absent : found->second;
+    };
+    const int grids = value("GRIDS", 0), local = value("LOCAL_MEDIA", 2);
+    return value("HAS_SUN", 0) + value("LAMPS", 0) > 0 && value("CHROMATIC", 1) == 1 &&
+           value("HEIGHT_MEDIA", MAX_HEIGHT_MEDIA) == MAX_HEIGHT_MEDIA && local > 0 && (local > 1 || grids == 1) &&
+           value("LIGHT_VOLUMES", 1 + grids) == 1 + grids;
+}
+
 bool is_sun(const Lamp& lamp, glm::vec3 eye) {
     return glm::distance(eye, lamp.position) > 0.5F * SUN_LAMP_DISTANCE;
 }
@@ -226,6 +238,7 @@ FrameMedia gather_media(const Inputs& inputs, const Settings& settings) {
     if (media.empty() && media.attenuating.empty()) return media;
     set_view(inputs, settings, media.data);
     set_stepping(settings, media.data);
+    media.through_glass = inputs.has_glass && desc.traits.glass && (inputs.has_sun || inputs.has_lamps);
     media.data.coloured_froxels = media.chromatic && !media.local.empty() ? 1U : 0U;
     media.data.local_media_count = static_cast<unsigned>(media.local.size());
     media.data.has_global = media.has_global ? 1U : 0U;

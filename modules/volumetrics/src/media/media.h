@@ -45,6 +45,7 @@ struct FrameMedia {
     bool local_noise = false;
     Grids grids;              ///< of all inputs
     bool uses_grids = false;  ///< one of them may be seen, or its shadow; else they are left out
+    bool through_glass = false;  ///< light has the colours of glass: programs are those of coloured extinction
     bool rayleigh = false;    ///< some medium scatters as air does
     bool chromatic = false;   ///< some medium's extinction is coloured, or is taken so: always where `rayleigh`
 
@@ -56,6 +57,9 @@ struct FrameMedia {
 
 /// Whether it can occur: with GRIDS, other axes of media have but their last value.
 [[nodiscard]] bool is_grid_permutation(const Permutation& permutation);
+
+/// Whether it can occur: with GLASS, other axes of media have but the values that serve all, see Frame::program.
+[[nodiscard]] bool is_glass_permutation(const Permutation& permutation);
 
 /// Value of the axis HEIGHT_MEDIA: see shaders/volumetrics/media/global_media.glsl.
 [[nodiscard]] int height_media_axis(const FrameMedia& media);

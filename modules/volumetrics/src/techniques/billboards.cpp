@@ -26,9 +26,10 @@ const ProgramDesc program{
              {"LAMPS", {0, 1}},  // 1: at a point, as LampIntegration::center
              {"GRIDS", {0, 1}},
              {"LIGHT_VOLUMES", {0, 1, 2}},
+             {"GLASS", {0, 1}},
              {"CHROMATIC", {0, 1}},
              {"COUNT_WORK", {0, 1}}},
-    .valid = [](const Permutation& p) { return is_light_volume_permutation(p) && is_grid_permutation(p); }};
+    .valid = [](const Permutation& p) { return is_light_volume_permutation(p) && is_grid_permutation(p) && is_glass_permutation(p); }};
 const ProgramDesc resolve_program{
     .name = "volumetrics/billboards_resolve",
     .stages = {{GL_VERTEX_SHADER, "shaders/lib/fullscreen.vert"},

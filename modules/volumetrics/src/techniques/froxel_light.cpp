@@ -7,7 +7,7 @@ namespace tyndall::volumetrics {
 namespace {
 
 bool is_permutation(const Permutation& p) {
-    if (!is_grid_permutation(p) || (p.at("LOCAL_MEDIA") == 0 && p.at("HEIGHT_MEDIA") > 1)) return false;
+    if (!is_grid_permutation(p) || !is_glass_permutation(p) || (p.at("LOCAL_MEDIA") == 0 && p.at("HEIGHT_MEDIA") > 1)) return false;
     return p.at("FROXEL_HISTORY") == 0 || p.at("HAS_SUN") + p.at("LAMPS") > 0;
 }
 
@@ -18,6 +18,7 @@ const ProgramDesc program{.name = "volumetrics/froxel_light",
                                    {"GRIDS", {0, 1}},
                                    {"HAS_SUN", {0, 1}},
                                    {"LAMPS", {0, 1, 2}},  // 1 + LampIntegration
+                                   {"GLASS", {0, 1}},
                                    {"CHROMATIC", {0, 1}},
                                    {"FROXEL_HISTORY", {0, 1}},
                                    {"COUNT_WORK", {0, 1}}},

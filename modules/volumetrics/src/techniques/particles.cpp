@@ -26,8 +26,9 @@ const ProgramDesc simulate_program{
              {"LAMPS", {0, 2}},  // 2: over a segment, as LampIntegration::segment
              {"LIGHT_VOLUMES", {0, 1, 2}},
              grids,
+             {"GLASS", {0, 1}},
              count_work},
-    .valid = is_light_volume_permutation};
+    .valid = [](const Permutation& p) { return is_light_volume_permutation(p) && is_glass_permutation(p); }};
 const ProgramDesc draw_program{.name = "volumetrics/particles",
                                .stages = {{GL_VERTEX_SHADER, "shaders/volumetrics/techniques/particles.vert"},
                                           {GL_FRAGMENT_SHADER, "shaders/volumetrics/techniques/particles.frag"}},

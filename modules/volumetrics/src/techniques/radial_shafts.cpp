@@ -64,7 +64,7 @@ TechniqueDesc radial_shafts() {
         .help = "Analytic fog whose brightest sun is shadowed by what the screen shows; no lamps, no local media.",
         .settings = "radial_",
         .passes = {"volumetrics/analytic_fog", "volumetrics/radial_visibility", "volumetrics/radial_shafts"},
-        .traits = {.sampling = Sampling::per_pixel, .any_resolution = true, .local_media = false},
+        .traits = {.sampling = Sampling::per_pixel, .any_resolution = true, .glass = false, .local_media = false},
         .add = add};
 }
 

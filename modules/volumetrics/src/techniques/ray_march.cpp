@@ -10,7 +10,7 @@ namespace {
 
 bool is_valid(const Permutation& p) {
     const int local = p.at("LOCAL_MEDIA");
-    if (!is_grid_permutation(p)) return false;
+    if (!is_grid_permutation(p) || !is_glass_permutation(p)) return false;
     const bool lit = p.at("HAS_SUN") + p.at("LAMPS") > 0;
     if (local == 1 && !lit) return false;
     if (local == 0 && lit && p.at("HEIGHT_MEDIA") > 1) return false;  // see local_media_axis
@@ -27,6 +27,7 @@ const ProgramDesc program{.name = "volumetrics/march",
                                    {"GRIDS", {0, 1}},
                                    {"HAS_SUN", {0, 1}},
                                    {"LAMPS", {0, 1, 2}},  // 1 + LampIntegration
+                                   {"GLASS", {0, 1}},
                                    {"CHROMATIC", {0, 1}},
                                    {"PARTS", {0, 1}},  // see reason_for_no_parts
                                    {"COUNT_WORK", {0, 1}}},

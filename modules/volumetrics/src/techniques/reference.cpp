@@ -9,17 +9,22 @@ namespace tyndall::volumetrics {
 namespace {
 
 const PermutationAxis height_media{"HEIGHT_MEDIA", {0, 1, MAX_HEIGHT_MEDIA}}, local_media{"LOCAL_MEDIA", {0, 1}},
-    grids{"GRIDS", {0, 1}};
+    grids{"GRIDS", {0, 1}}, glass{"GLASS", {0, 1}};
+
+bool is_valid(const Permutation& p) {
+    return is_grid_permutation(p) && is_glass_permutation(p);
+}
+
 const ProgramDesc media_program{
     .name = "volumetrics/reference_media",
     .stages = {{GL_COMPUTE_SHADER, "shaders/volumetrics/techniques/reference_media.comp"}},
-    .axes = {height_media, local_media, grids, {"HAS_SUN", {0, 1}}, {"COUNT_WORK", {0, 1}}},
-    .valid = is_grid_permutation};
+    .axes = {height_media, local_media, grids, {"HAS_SUN", {0, 1}}, glass, {"COUNT_WORK", {0, 1}}},
+    .valid = is_valid};
 const ProgramDesc lamp_program{
     .name = "volumetrics/reference_lamps",
     .stages = {{GL_COMPUTE_SHADER, "shaders/volumetrics/techniques/reference_lamps.comp"}},
-    .axes = {height_media, local_media, grids, {"COUNT_WORK", {0, 1}}},
-    .valid = is_grid_permutation};
+    .axes = {height_media, local_media, grids, {"LAMPS", {2}}, glass, {"COUNT_WORK", {0, 1}}},
+    .valid = is_valid};
 const ProgramRegistry::Registration media_registration(media_program), lamp_registration(lamp_program);
 
 /// MAX_STEP_COUNT of reference_lamps.comp.
@@ -83,7 +88,7 @@ Estimate add(Frame& frame) {
     const Settings& settings = frame.settings;
     const Reference reference{
         .media = frame.program(media_program),
-        .lamps = frame.inputs.has_lamps ? &frame.program(lamp_program) : nullptr,
+        .lamps = frame.inputs.has_lamps ? &frame.program(lamp_program, {{"LAMPS", 2}}) : nullptr,
         .unfinished = frame.kept<Unfinished>().buffer,
         .steps = (settings.reference.steps + steps_per_part - 1) / steps_per_part * steps_per_part,
         .steps_per_dispatch = media_steps_per_dispatch(frame.media, settings),
