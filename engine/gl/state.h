@@ -6,8 +6,8 @@
 
 namespace tyndall::gl {
 
-/// premultiplied: dst = src + dst * src.a; over: dst.rgb = src.rgb + dst.rgb * (1 - src.a); through, of two sources:
-/// dst.rgb = src.rgb + dst.rgb * src1.rgb; filter: dst.rgb *= src.rgb, dst.a = max(src.a, dst.a).
+/// premultiplied: dst = src + dst * src.a; over: dst.rgb = src.rgb + dst.rgb * (1 - src.a); through, of two
+/// sources: dst.rgb = src.rgb + dst.rgb * src1.rgb; filter: dst.rgb *= src.rgb, dst.a = max(src.a, dst.a).
 enum class Blend { none, premultiplied, add, over, through, filter };
 
 /// All fixed-function state a draw depends on, set as a whole: nothing leaks from pass to pass.

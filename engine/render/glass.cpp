@@ -13,7 +13,8 @@ bool meets_sphere(const Aabb& box, glm::vec3 center, float radius) {
 
 }  // namespace
 
-// The box with all that lies behind it is convex: it is outside of a plane if the box is and light does not come nearer.
+// The box with all that lies behind it is convex: it is outside of a plane if the box is and light does not come
+// nearer.
 bool shades(const Aabb& box, glm::vec3 direction, const Frustum& view) {
     const glm::vec3 center = 0.5f * (box.min + box.max), extent = 0.5f * (box.max - box.min);
     for (int i = 0; i < view.count; ++i) {
@@ -35,17 +36,16 @@ void find_glass(const Scene& scene, const GpuScene& gpu, const View& view, Frame
         const Light& sun = scene.lights[light];
         if (!sun.shadow || sun.node < 0) return false;
         const glm::vec3 direction = -glm::vec3(node_pose(scene, sun.node)[2]);
-        return std::ranges::any_of(glass,
-                                   [&](const Instance* g) { return shades(g->bounds, direction, frustum); });
+        return std::ranges::any_of(glass, [&](const Instance* g) { return shades(g->bounds, direction, frustum); });
     };
     facts.sun_through_glass = facts.has_sun && before_sun(*scene.sun());
     for (Lamp& lamp : facts.lamps) {
         if (!lamp.in_view || !scene.lights[lamp.light].shadow) continue;
-        lamp.through_glass =
-            scene.lights[lamp.light].type == LightType::sun
-                ? before_sun(lamp.light)
-                : std::ranges::any_of(
-                      glass, [&](const Instance* g) { return meets_sphere(g->bounds, lamp.position, lamp.range); });
+        lamp.through_glass = scene.lights[lamp.light].type == LightType::sun
+                                 ? before_sun(lamp.light)
+                                 : std::ranges::any_of(glass, [&](const Instance* g) {
+                                       return meets_sphere(g->bounds, lamp.position, lamp.range);
+                                   });
     }
 }
 

@@ -12,12 +12,12 @@ namespace tyndall {
 /// A point or spot lamp that shines, where its node stands now; or a further sun: beside the brightest one, suns
 /// are lamps so far away that their light is parallel, and of an intensity that leaves their illuminance here.
 struct Lamp {
-    std::size_t light = 0;     ///< of Scene::lights
-    glm::vec3 position{0};     ///< m
-    float range = 0;           ///< m
-    glm::vec3 axis{0, 0, -1};  ///< unit, the way it points
-    float cos_outer = -1;      ///< of its cone's half angle; -1: a point lamp
-    bool in_view = false;      ///< its sphere of influence meets the view frustum
+    std::size_t light = 0;       ///< of Scene::lights
+    glm::vec3 position{0};       ///< m
+    float range = 0;             ///< m
+    glm::vec3 axis{0, 0, -1};    ///< unit, the way it points
+    float cos_outer = -1;        ///< of its cone's half angle; -1: a point lamp
+    bool in_view = false;        ///< its sphere of influence meets the view frustum
     bool through_glass = false;  ///< find_glass(): some may stand before what it lights
 };
 

@@ -31,7 +31,9 @@ bool any_casts(const Scene& scene) {
 }  // namespace
 
 ShadowAtlasPass::ShadowAtlasPass(ShaderLibrary& shaders)
-    : depth_(shaders), texels_({.min_filter = GL_NEAREST, .mag_filter = GL_NEAREST}, "shadow atlas texels"), glass_filter_(shaders) {}
+    : depth_(shaders),
+      texels_({.min_filter = GL_NEAREST, .mag_filter = GL_NEAREST}, "shadow atlas texels"),
+      glass_filter_(shaders) {}
 
 void ShadowAtlasPass::release(FrameContext& context, const char* reason) {
     atlas_ = {};

@@ -29,8 +29,9 @@ class ShadowAtlasPass {
         TextureRef glass;  ///< RGBA16 array of one layer, half as wide; empty without glass before a lamp in view
     };
     /// Gives the shadow casters among the lamps in view tiles and adds the pass "shadow_atlas" if any must be drawn
-    /// (else skips it with the reason), and "shadow_atlas/glass" for the tiles of lamps that glass stands before. Lights out of view keep tiles while there is room. Without a shadow-casting
-    /// lamp, or with settings.shadows off, everything is freed.
+    /// (else skips it with the reason), and "shadow_atlas/glass" for the tiles of lamps that glass stands before.
+    /// Lights out of view keep tiles while there is room. Without a shadow-casting lamp, or with settings.shadows
+    /// off, everything is freed.
     Output add(FrameContext& context);
     /// Index of a scene light's first tile in the tile buffer, -1 when it has none. Valid after add().
     [[nodiscard]] int first_tile(std::size_t scene_light_index) const;

@@ -22,11 +22,11 @@ class ShadowGlass {
 
     struct Map {
         glm::mat4 world_to_clip;
-        glm::vec4 nearness;       ///< dot(nearness, (world, 1)): 0..1, greater is nearer to the light
-        gl::TextureView shadows;  ///< drawn before, of the same things
-        int layer = 0;            ///< of `shadows`, if it is an array
-        int size = 0;             ///< px, a side of the target
-        bool depth_clamp = false; ///< glass nearer to the light than the map counts
+        glm::vec4 nearness;        ///< dot(nearness, (world, 1)): 0..1, greater is nearer to the light
+        gl::TextureView shadows;   ///< drawn before, of the same things
+        int layer = 0;             ///< of `shadows`, if it is an array
+        int size = 0;              ///< px, a side of the target
+        bool depth_clamp = false;  ///< glass nearer to the light than the map counts
     };
     /// `list` holds glass.
     void draw(const GpuScene& gpu, const DrawList& list, int view, const Map& map) const;

@@ -29,7 +29,9 @@ void ensure(gl::Texture& texture, const gl::TextureDesc& desc, const char* label
 }  // namespace
 
 ShadowSunPass::ShadowSunPass(ShaderLibrary& shaders)
-    : depth_(shaders), texels_({.min_filter = GL_NEAREST, .mag_filter = GL_NEAREST}, "sun shadow texels"), draw_glass_(shaders) {}
+    : depth_(shaders),
+      texels_({.min_filter = GL_NEAREST, .mag_filter = GL_NEAREST}, "sun shadow texels"),
+      draw_glass_(shaders) {}
 
 void ShadowSunPass::release(FrameContext& context, const std::string& reason) {
     cascades_ = {};

@@ -23,14 +23,14 @@ class ShadowSunPass {
     struct Output {
         TextureRef cascades;    ///< D32F array, SUN_CASCADES layers; empty when there is no sun or shadows are off
         TextureRef static_map;  ///< D32F; likewise
-        TextureRef glass;       ///< RGBA16 array, a layer for each of those maps; empty without glass before the sun
+        TextureRef glass;  ///< RGBA16 array, a layer for each of those maps; empty without glass before the sun
     };
-    /// Adds "shadow_sun/cascade_0" … "_3" and "shadow_sun/static", and for glass "shadow_sun/glass_0" … "_4" (or skips
-    /// them with the reason) and fills frame.sun_cascade, sun_static, sun_cascade_far, sun_texel and sun_static_texel.
-    /// Without a sun, or with settings.shadows off, the textures are freed and lookups return 1.
+    /// Adds "shadow_sun/cascade_0" … "_3" and "shadow_sun/static", and for glass "shadow_sun/glass_0" … "_4" (or
+    /// skips them with the reason) and fills frame.sun_cascade, sun_static, sun_cascade_far, sun_texel and
+    /// sun_static_texel. Without a sun, or with settings.shadows off, the textures are freed and lookups return 1.
     Output add(FrameContext& context);
-    /// Binds textures and samplers at UNIT_SUN_CASCADES, UNIT_SUN_STATIC and UNIT_SUN_GLASS, for shadow_lookup.glsl and
-    /// glass_lookup.glsl.
+    /// Binds textures and samplers at UNIT_SUN_CASCADES, UNIT_SUN_STATIC and UNIT_SUN_GLASS, for shadow_lookup.glsl
+    /// and glass_lookup.glsl.
     void bind() const;
 
   private:

@@ -13,9 +13,9 @@
 namespace tyndall {
 
 /// Transparent surfaces and particles, over the finished picture of the opaque ones: lit and shadowed as those
-/// are, but without the colour of glass before the light; modules may change what each adds to the picture, such as fog it at its own depth. They are drawn back to
-/// front by the view depth of their middle, an instance as a whole: surfaces that cut each other, or a small one
-/// before the near part of a large one, may blend in the wrong order.
+/// are, but without the colour of glass before the light; modules may change what each adds to the picture, such as
+/// fog it at its own depth. They are drawn back to front by the view depth of their middle, an instance as a whole:
+/// surfaces that cut each other, or a small one before the near part of a large one, may blend in the wrong order.
 class TransparentPass {
   public:
     /// Finds what of the scene is in view at frame.time; true if anything is. To be called before `add`.

@@ -81,7 +81,7 @@ TEST_F(VolumetricsPasses, MoreHeightMediaThanTheBlockHoldsAreAnError) {
     EXPECT_THROW(host.render(Settings{}), Error);
 }
 
-constexpr std::size_t most_permutations = 610;
+constexpr std::size_t most_permutations = 670;
 
 TEST_F(VolumetricsPasses, EveryPermutationBuildsWithinWhatOpenGlPromises) {
     ShaderLibrary engine_lighting(data_root());

@@ -73,8 +73,8 @@ class Frame {
     [[nodiscard]] Estimate create_estimate() const { return create_estimate(size); }
     [[nodiscard]] Estimate create_host_estimate() const { return create_estimate(inputs.size); }
     /// Of the axes that frames of all techniques have (GRIDS, HEIGHT_MEDIA, LOCAL_MEDIA, HAS_SUN, LAMPS,
-    /// LIGHT_VOLUMES, GLASS, CHROMATIC, COUNT_WORK) those that `desc` declares need not be given: they follow from the
-    /// frame.
+    /// LIGHT_VOLUMES, GLASS, CHROMATIC, COUNT_WORK) those that `desc` declares need not be given: they follow from
+    /// the frame.
     [[nodiscard]] const gl::Program& program(const ProgramDesc& desc, const Permutation& own = {}) const;
     /// A sun, lamps or ambient light.
     [[nodiscard]] bool has_light() const;

@@ -82,9 +82,10 @@ struct Inputs {
     std::vector<TextureRef> light_textures;  ///< what shaders/interface/{lights,shadows}.glsl sample
     std::vector<BufferRef> light_buffers;    ///< and read
     std::function<void()> bind_lighting;     ///< binds those; called inside each pass that lights the medium
-    /// shaders/interface/shadows.glsl has sun_filter and light_filter, and some light comes through glass in this frame.
+    /// shaders/interface/shadows.glsl has sun_filter and light_filter, and some light comes through glass in this
+    /// frame.
     bool has_glass = false;
-    bool has_shadow_maps = false;            ///< the host has shaders/interface/shadow_maps.glsl
+    bool has_shadow_maps = false;  ///< the host has shaders/interface/shadow_maps.glsl
 
     bool transparents = false;  ///< Outputs::fog is wanted, whatever the technique
     bool acceptance = false;    ///< Outputs::acceptance is wanted

@@ -69,7 +69,7 @@ std::optional<int> standard_axis(const Frame& frame, const std::string& define) 
         return frame.inputs.has_lamps ? 1 + static_cast<int>(frame.settings.light.lamp_integration) : 0;
     if (define == "LIGHT_VOLUMES") return frame.resources.light_volumes.axis();
     if (define == "GLASS") return frame.media.through_glass;
-    if (define == "CHROMATIC") return frame.media.chromatic || frame.media.through_glass;
+    if (define == "CHROMATIC") return frame.media.chromatic;
     if (define == "COUNT_WORK") return frame.inputs.count_work;
     return std::nullopt;
 }
@@ -97,7 +97,7 @@ Estimate Frame::create_estimate(glm::ivec2 pixels) const {
     const gl::TextureDesc desc{.format = GL_RGBA16F, .size = {pixels, 1}};
     Estimate estimate;
     estimate.scattering = passes.create("volumetrics/scattering", desc);
-    if (media.chromatic || media.through_glass) estimate.transmittance = passes.create("volumetrics/transmittance", desc);
+    if (media.chromatic) estimate.transmittance = passes.create("volumetrics/transmittance", desc);
     return estimate;
 }
 

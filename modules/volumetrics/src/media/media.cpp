@@ -228,6 +228,8 @@ FrameMedia gather_media(const Inputs& inputs, const Settings& settings) {
     FrameMedia media;
     const TechniqueDesc& desc = technique(settings.technique);
     if (!desc.add) return media;
+    media.through_glass = inputs.has_glass && desc.traits.glass && (inputs.has_sun || inputs.has_lamps);
+    media.chromatic = media.through_glass;
     add_global(inputs, media);
     if (desc.traits.local_media) {
         gather_grids(inputs, media);
@@ -238,7 +240,6 @@ FrameMedia gather_media(const Inputs& inputs, const Settings& settings) {
     if (media.empty() && media.attenuating.empty()) return media;
     set_view(inputs, settings, media.data);
     set_stepping(settings, media.data);
-    media.through_glass = inputs.has_glass && desc.traits.glass && (inputs.has_sun || inputs.has_lamps);
     media.data.coloured_froxels = media.chromatic && !media.local.empty() ? 1U : 0U;
     media.data.local_media_count = static_cast<unsigned>(media.local.size());
     media.data.has_global = media.has_global ? 1U : 0U;

@@ -17,19 +17,21 @@ TYNDALL_GLSL_END
 namespace tyndall::volumetrics {
 namespace {
 
-const ProgramDesc program{
-    .name = "volumetrics/billboards",
-    .stages = {{GL_VERTEX_SHADER, "shaders/volumetrics/techniques/billboards.vert"},
-               {GL_FRAGMENT_SHADER, "shaders/volumetrics/techniques/billboards.frag"}},
-    .axes = {{"HEIGHT_MEDIA", {0, 1, MAX_HEIGHT_MEDIA}},
-             {"HAS_SUN", {0, 1}},
-             {"LAMPS", {0, 1}},  // 1: at a point, as LampIntegration::center
-             {"GRIDS", {0, 1}},
-             {"LIGHT_VOLUMES", {0, 1, 2}},
-             {"GLASS", {0, 1}},
-             {"CHROMATIC", {0, 1}},
-             {"COUNT_WORK", {0, 1}}},
-    .valid = [](const Permutation& p) { return is_light_volume_permutation(p) && is_grid_permutation(p) && is_glass_permutation(p); }};
+const ProgramDesc program{.name = "volumetrics/billboards",
+                          .stages = {{GL_VERTEX_SHADER, "shaders/volumetrics/techniques/billboards.vert"},
+                                     {GL_FRAGMENT_SHADER, "shaders/volumetrics/techniques/billboards.frag"}},
+                          .axes = {{"HEIGHT_MEDIA", {0, 1, MAX_HEIGHT_MEDIA}},
+                                   {"HAS_SUN", {0, 1}},
+                                   {"LAMPS", {0, 1}},  // 1: at a point, as LampIntegration::center
+                                   {"GRIDS", {0, 1}},
+                                   {"LIGHT_VOLUMES", {0, 1, 2}},
+                                   {"GLASS", {0, 1}},
+                                   {"CHROMATIC", {0, 1}},
+                                   {"COUNT_WORK", {0, 1}}},
+                          .valid = [](const Permutation& p) {
+                              return is_light_volume_permutation(p) && is_grid_permutation(p) &&
+                                     is_glass_permutation(p);
+                          }};
 const ProgramDesc resolve_program{
     .name = "volumetrics/billboards_resolve",
     .stages = {{GL_VERTEX_SHADER, "shaders/lib/fullscreen.vert"},

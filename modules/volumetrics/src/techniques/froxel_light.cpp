@@ -7,7 +7,9 @@ namespace tyndall::volumetrics {
 namespace {
 
 bool is_permutation(const Permutation& p) {
-    if (!is_grid_permutation(p) || !is_glass_permutation(p) || (p.at("LOCAL_MEDIA") == 0 && p.at("HEIGHT_MEDIA") > 1)) return false;
+    if (!is_grid_permutation(p) || !is_glass_permutation(p) ||
+        (p.at("LOCAL_MEDIA") == 0 && p.at("HEIGHT_MEDIA") > 1))
+        return false;
     return p.at("FROXEL_HISTORY") == 0 || p.at("HAS_SUN") + p.at("LAMPS") > 0;
 }
 

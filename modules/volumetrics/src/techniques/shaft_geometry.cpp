@@ -146,7 +146,10 @@ TechniqueDesc shaft_geometry() {
             .help = "Meshes the sun's shadows and blends closed forms at their faces; no local media.",
             .settings = "shaft_",
             .passes = {"volumetrics/shaft_mesh", "volumetrics/shaft_faces", "volumetrics/shaft_resolve"},
-            .traits = {.sampling = Sampling::per_pixel, .any_resolution = true, .glass = false, .needs_global_medium = true},
+            .traits = {.sampling = Sampling::per_pixel,
+                       .any_resolution = true,
+                       .glass = false,
+                       .needs_global_medium = true},
             .add = add};
 }
 
