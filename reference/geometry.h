@@ -18,10 +18,12 @@ struct Interval {
     double begin, end;
 };
 
-/// All triangles of a scene as posed now, in world space: what blocks the eye and what blocks light. Alpha-blended
-/// materials block neither, as in the engine; alpha-masked ones are cut out at their cutoff by bilinear look-up in
-/// the full-resolution texture. Rays are Embree's; lit intervals are exact, see below. Safe to use from many
-/// threads.
+class Tint;
+
+/// All triangles of a scene as posed now, in world space: what blocks the eye and what blocks light. Transparent
+/// (alpha-blended) materials block neither, but tint light, see Tint; alpha-masked ones are cut out at their cutoff
+/// by bilinear look-up in the full-resolution texture. Rays are Embree's; lit intervals are exact, see below. Safe
+/// to use from many threads.
 class Geometry {
   public:
     /// The scene must outlive this. `shadows` false: nothing blocks light.
@@ -55,6 +57,16 @@ class Geometry {
                                                    dvec3 to_sun) const;
     [[nodiscard]] std::vector<Interval> lit_by_lamp(dvec3 origin, dvec3 unit_direction, double begin, double end,
                                                     dvec3 lamp) const;
+
+    /// What transparent surfaces leave of a light along a ray, with edges as exact as those of lit intervals; clear
+    /// where nothing blocks light. A ray within 1e-7 rad of the light's direction (or through the lamp) is taken
+    /// along the light.
+    [[nodiscard]] Tint tint_by_sun(dvec3 origin, dvec3 unit_direction, double begin, double end,
+                                   dvec3 to_sun) const;
+    [[nodiscard]] Tint tint_by_lamp(dvec3 origin, dvec3 unit_direction, double begin, double end, dvec3 lamp) const;
+    /// The same at one point, for a light at `distance` metres, or a sun where that is infinite. Surfaces within
+    /// `skip` metres of the point do not count.
+    [[nodiscard]] dvec3 tint(dvec3 from, dvec3 unit_direction, double distance, double skip) const;
 
     struct Impl;
     [[nodiscard]] const Impl& impl() const { return *impl_; }

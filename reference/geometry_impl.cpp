@@ -42,13 +42,14 @@ bool blocks(const Query& query, const Triangle& triangle) {
     const Material& material = query.geometry->material(triangle);
     const bool front = hit.counter_clockwise != triangle.mirrored;
     if (query.sees == Geometry::Impl::Sees::eye && !front && !material.double_sided) return false;
+    const dvec3 weights(1 - hit.barycentric.x - hit.barycentric.y, hit.barycentric);
     return !material.alpha_mask ||
-           query.geometry->alpha(triangle, hit.barycentric) *
-                   mask_alpha(query.geometry->scene, material, query.geometry->uv(triangle, hit.barycentric)) >=
+           query.geometry->color(triangle, weights).a *
+                   mask_alpha(query.geometry->scene, material, query.geometry->uv(triangle, weights)) >=
                material.alpha_cutoff;
 }
 
-void filter(const RTCFilterFunctionNArguments* arguments) {
+void embree_filter(const RTCFilterFunctionNArguments* arguments) {
     if (arguments->valid[0] == 0) return;
     // The context is the query's first member.
     const Query& query = *reinterpret_cast<const Query*>(arguments->context);
@@ -90,10 +91,11 @@ Geometry::Impl::Impl(const Scene& from, bool with_shadows) : scene(from), shadow
     build_embree();
     if (!shadows) return;
     std::vector<Caster> list;
-    for (const Triangle& triangle : triangles) {
+    for (std::size_t index = 0; index < triangles.size(); ++index) {
+        const Triangle& triangle = triangles[index];
         if (!triangle.cast_shadow) continue;
         const Material& m = material(triangle);
-        Caster caster{triangle.corner, {}, {}, m.alpha_mask ? &m : nullptr};
+        Caster caster{triangle.corner, static_cast<std::uint32_t>(index), {}, {}, m.alpha_mask ? &m : nullptr};
         for (std::size_t i = 0; i < 3; ++i) {
             caster.uv[i] = vertex(triangle, i).uv;
             caster.alpha[static_cast<int>(i)] = vertex(triangle, i).color.a;
@@ -101,6 +103,11 @@ Geometry::Impl::Impl(const Scene& from, bool with_shadows) : scene(from), shadow
         list.push_back(caster);
     }
     casters = std::make_unique<SliceTree>(scene, std::move(list), center);
+    if (glass.empty()) return;
+    std::vector<Caster> transparent;
+    for (const Triangle& triangle : glass)
+        transparent.push_back({triangle.corner, static_cast<std::uint32_t>(transparent.size()), {}, {}, nullptr});
+    panes = std::make_unique<SliceTree>(scene, std::move(transparent), center);
 }
 
 void Geometry::Impl::collect_triangles() {
@@ -114,7 +121,8 @@ void Geometry::Impl::collect_triangles() {
         const bool mirrored = glm::determinant(linear) < -1e-6 * sizes;
         for (const int m : node.meshes) {
             const Mesh& mesh = scene.meshes[static_cast<std::size_t>(m)];
-            if (scene.materials[static_cast<std::size_t>(mesh.material)].alpha_blend) continue;
+            const bool transparent = scene.materials[static_cast<std::size_t>(mesh.material)].alpha_blend;
+            if (transparent && !node.cast_shadow) continue;
             for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
                 Triangle triangle{{},
                                   static_cast<std::uint32_t>(n),
@@ -126,13 +134,13 @@ void Geometry::Impl::collect_triangles() {
                     triangle.corner[k] = world * glm::dvec4(mesh.vertices[mesh.indices[i + k]].position, 1);
                 const auto& [a, b, c] = triangle.corner;
                 if (!(glm::length(glm::cross(b - a, c - a)) > 0)) continue;
-                triangles.push_back(triangle);
+                (transparent ? glass : triangles).push_back(triangle);
                 low = glm::min(low, glm::min(a, glm::min(b, c)));
                 high = glm::max(high, glm::max(a, glm::max(b, c)));
             }
         }
     }
-    if (triangles.empty()) return;
+    if (triangles.empty() && glass.empty()) return;
     center = 0.5 * (low + high);
     radius = 0.5 * glm::length(high - low);
 }
@@ -155,8 +163,8 @@ void Geometry::Impl::build_embree() {
             std::copy_n(&p.x, 3, positions + 3 * i);
             indices[i] = static_cast<unsigned>(i);
         }
-        rtcSetGeometryIntersectFilterFunction(geometry, filter);
-        rtcSetGeometryOccludedFilterFunction(geometry, filter);
+        rtcSetGeometryIntersectFilterFunction(geometry, embree_filter);
+        rtcSetGeometryOccludedFilterFunction(geometry, embree_filter);
         rtcCommitGeometry(geometry);
         rtcAttachGeometry(embree.get(), geometry);
         rtcReleaseGeometry(geometry);
@@ -166,14 +174,44 @@ void Geometry::Impl::build_embree() {
         throw Error(fmt::format("Embree: error {}", int{error}));
 }
 
-dvec2 Geometry::Impl::uv(const Triangle& triangle, dvec2 barycentric) const {
-    return (1 - barycentric.x - barycentric.y) * dvec2(vertex(triangle, 0).uv) +
-           barycentric.x * dvec2(vertex(triangle, 1).uv) + barycentric.y * dvec2(vertex(triangle, 2).uv);
+dvec2 Geometry::Impl::uv(const Triangle& triangle, dvec3 weights) const {
+    return weights.x * dvec2(vertex(triangle, 0).uv) + weights.y * dvec2(vertex(triangle, 1).uv) +
+           weights.z * dvec2(vertex(triangle, 2).uv);
 }
 
-double Geometry::Impl::alpha(const Triangle& triangle, dvec2 barycentric) const {
-    const dvec3 corner(vertex(triangle, 0).color.a, vertex(triangle, 1).color.a, vertex(triangle, 2).color.a);
-    return glm::dot(corner, dvec3(1 - barycentric.x - barycentric.y, barycentric));
+dvec4 Geometry::Impl::color(const Triangle& triangle, dvec3 weights) const {
+    return weights.x * dvec4(vertex(triangle, 0).color) + weights.y * dvec4(vertex(triangle, 1).color) +
+           weights.z * dvec4(vertex(triangle, 2).color);
+}
+
+dvec3 Geometry::Impl::filter(const Triangle& triangle, dvec3 weights) const {
+    const Material& m = material(triangle);
+    const dvec4 base = base_color(scene, m, uv(triangle, weights), color(triangle, weights));
+    return (1 - base.a) + base.a * double{m.transmission} * dvec3(base);
+}
+
+std::vector<Geometry::Impl::Crossing> Geometry::Impl::glass_between(dvec3 point, dvec3 to_light,
+                                                                    double distance) const {
+    if (!panes) return {};
+    // A slice along any short ray across the light: what darkens its middle lies on the line.
+    const dvec3 size = glm::abs(to_light);
+    const dvec3 axis = size.x <= size.y && size.x <= size.z ? dvec3(1, 0, 0)
+                       : size.y <= size.z                   ? dvec3(0, 1, 0)
+                                                            : dvec3(0, 0, 1);
+    const dvec3 across = glm::normalize(glm::cross(to_light, axis));
+    constexpr double half = 1e-6;
+    const auto slice = std::isfinite(distance) ? lamp_slice(point, across, -half, half, point + distance * to_light)
+                                               : sun_slice(point, across, -half, half, to_light);
+    if (!slice) return {};
+    std::vector<Crossing> found;
+    for (const auto& [index, shadow] : panes->cuts(*slice)) {
+        const Interval part = shadow.on_ray(shadow.part, *slice);
+        if (!(part.begin < 0 && part.end >= 0)) continue;
+        const dvec3 w = shadow.weights_at(0);
+        const auto& [a, b, c] = glass[index].corner;
+        found.push_back({index, w, glm::dot(w.x * a + w.y * b + w.z * c - point, to_light)});
+    }
+    return found;
 }
 
 std::optional<Geometry::Hit> Geometry::Impl::first_hit(dvec3 origin, dvec3 direction, double begin, double end,

@@ -26,12 +26,13 @@ struct EmbreeRelease {
 struct Geometry::Impl {
     const Scene& scene;
     bool shadows;
-    std::vector<Triangle> triangles;
+    std::vector<Triangle> triangles, glass;  ///< those that block, and transparent ones that cast shadows
     dvec3 center{0};    ///< of the bounds, and Embree's origin: its single precision is best spent near the scene
     double radius = 0;  ///< of a sphere around it that holds all triangles, m
     std::unique_ptr<RTCDeviceTy, EmbreeRelease> device;
     std::unique_ptr<RTCSceneTy, EmbreeRelease> embree;
     std::unique_ptr<SliceTree> casters;
+    std::unique_ptr<SliceTree> panes;  ///< of `glass`; null where there is none, or nothing blocks light
 
     Impl(const Scene& scene, bool shadows);
 
@@ -42,9 +43,23 @@ struct Geometry::Impl {
         const Mesh& mesh = scene.meshes[triangle.mesh];
         return mesh.vertices[mesh.indices[triangle.first_index + corner]];
     }
-    [[nodiscard]] dvec2 uv(const Triangle& triangle, dvec2 barycentric) const;
-    /// Of the vertices' colours.
-    [[nodiscard]] double alpha(const Triangle& triangle, dvec2 barycentric) const;
+    [[nodiscard]] dvec2 uv(const Triangle& triangle, dvec3 weights) const;
+    /// Of the vertices.
+    [[nodiscard]] glm::dvec4 color(const Triangle& triangle, dvec3 weights) const;
+    /// By which a transparent triangle multiplies light, see Tint.
+    [[nodiscard]] dvec3 filter(const Triangle& triangle, dvec3 weights) const;
+
+    struct Crossing {
+        std::uint32_t triangle;  ///< of `glass`
+        dvec3 weights;
+        double distance;  ///< m from where the line starts
+    };
+    /// The transparent triangles that light crosses on its last `distance` metres to a point; a light at infinity
+    /// is a sun. In no order; an edge of two triangles counts once.
+    [[nodiscard]] std::vector<Crossing> glass_between(dvec3 point, dvec3 to_light, double distance) const;
+
+    /// From `point` this far in any direction there is nothing more, m.
+    [[nodiscard]] double beyond(dvec3 point) const { return glm::length(center - point) + radius + 1; }
 
     enum class Sees { eye, light };
     /// The first triangle that `sees` does not see through, with begin < distance < end; exact in distance.

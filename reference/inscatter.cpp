@@ -7,6 +7,7 @@
 
 #include "reference/phase.h"
 #include "reference/quadrature.h"
+#include "reference/tint.h"
 
 namespace tyndall::reference {
 namespace {
@@ -21,6 +22,7 @@ struct Source {
     enum class Kind { glow, sun, lamp_inside, lamp_before, lamp_behind };
     Kind kind;
     int light = -1;  ///< index of a sun or a LampPath
+    int tint = -1;   ///< index of the light's
 };
 
 }  // namespace
@@ -31,6 +33,7 @@ struct InScattering::RaySum {
     const MediaRay& ray;
     dvec3 origin, direction;
     std::vector<LampPath> lamps{};
+    std::vector<Tint> tints{};
     std::vector<Source> sources{};
     std::vector<Panel<dvec3>> panels{};
     dvec3 sum{0};  ///< of the panels as first integrated
@@ -47,38 +50,46 @@ struct InScattering::RaySum {
         const MediumPoint m = ray.at(t);
         return glm::exp(-ray.depth(t)) * (m.emission + m.sigma_s * in.lighting_.ambient);
     }
-    [[nodiscard]] dvec3 sunlight(const Sun& sun, double t) const {
+    [[nodiscard]] dvec3 sunlight(const Sun& sun, const Tint& tint, double t) const {
         const MediumPoint m = ray.at(t);
-        if (m.sigma_s == dvec3(0)) return dvec3(0);
-        return glm::exp(-ray.depth(t)) * sun.illuminance * scattered(m, glm::dot(sun.to_sun, direction)) *
+        const dvec3 filter = tint.at(t);
+        if (m.sigma_s * filter == dvec3(0)) return dvec3(0);
+        return filter * glm::exp(-ray.depth(t)) * sun.illuminance * scattered(m, glm::dot(sun.to_sun, direction)) *
                in.towards_sun(origin + t * direction, sun.to_sun, in.averaged());
     }
     /// At u metres behind the point nearest to the lamp, times `weight`, m².
-    [[nodiscard]] dvec3 lamplight(const LampPath& path, double u, double weight) const {
+    [[nodiscard]] dvec3 lamplight(const LampPath& path, const Tint& tint, double u, double weight) const {
         const double t = path.nearest + u;
         const MediumPoint m = ray.at(t);
         const dvec3 offset = path.passing + u * direction;
         const double distance = std::sqrt(path.h * path.h + u * u);
-        if (m.sigma_s == dvec3(0)) return dvec3(0);
+        const dvec3 filter = tint.at(t);
+        if (m.sigma_s * filter == dvec3(0)) return dvec3(0);
         const Lamp& lamp = *path.lamp;
         const double cos_axis = distance > 0 ? glm::dot(offset, lamp.axis) / distance : 1;
         const double strength = lamp.attenuation(distance * distance) * lamp.cone(cos_axis) * weight;
         if (strength <= 0) return dvec3(0);
         const dvec3 to_lamp = distance > 0 ? -offset / distance : -direction;
-        return glm::exp(-ray.depth(t)) * lamp.intensity * scattered(m, distance > 0 ? -u / distance : 0.0) *
+        return filter * glm::exp(-ray.depth(t)) * lamp.intensity *
+               scattered(m, distance > 0 ? -u / distance : 0.0) *
                in.towards_lamp(origin + t * direction, to_lamp, distance, in.averaged()) * strength;
     }
     [[nodiscard]] dvec3 evaluate(int source, double x) const {
         const Source& s = sources[static_cast<std::size_t>(source)];
         if (s.kind == Source::Kind::glow) return glow(x);
         const auto index = static_cast<std::size_t>(s.light);
-        if (s.kind == Source::Kind::sun) return sunlight(in.lighting_.suns[index], x);
+        const Tint& tint = tints[static_cast<std::size_t>(s.tint)];
+        if (s.kind == Source::Kind::sun) return sunlight(in.lighting_.suns[index], tint, x);
         const LampPath& path = lamps[index];
-        if (s.kind == Source::Kind::lamp_inside) return lamplight(path, x - path.nearest, 1);
+        if (s.kind == Source::Kind::lamp_inside) return lamplight(path, tint, x - path.nearest, 1);
         const double u = path.from_angle(x);
-        return lamplight(path, s.kind == Source::Kind::lamp_before ? -u : u, path.h * path.h + u * u);
+        return lamplight(path, tint, s.kind == Source::Kind::lamp_before ? -u : u, path.h * path.h + u * u);
     }
 
+    int add_tint(Tint tint) {
+        tints.push_back(std::move(tint));
+        return static_cast<int>(tints.size()) - 1;
+    }
     int add_source(Source source) {
         sources.push_back(source);
         return static_cast<int>(sources.size()) - 1;
@@ -89,7 +100,7 @@ struct InScattering::RaySum {
         sum += panels.back().integral.value;
     }
     /// The interval's ends and what of the media's knots and of `more` lies between.
-    [[nodiscard]] std::vector<double> split(const Interval& part, const std::vector<double>& more = {}) const {
+    [[nodiscard]] std::vector<double> split(const Interval& part, const std::vector<double>& more) const {
         std::vector<double> points{part.begin, part.end};
         for (const std::vector<double>* list : {&ray.knots(), &more})
             for (const double t : *list)
@@ -100,30 +111,41 @@ struct InScattering::RaySum {
 
     void add_glow() {
         const int source = add_source({Source::Kind::glow});
-        const std::vector<double> points = split({0, ray.end()});
+        const std::vector<double> points = split({0, ray.end()}, {});
         for (std::size_t i = 0; i + 1 < points.size(); ++i) add_panel(source, points[i], points[i + 1]);
     }
     void add_sun(int index) {
         const Sun& sun = in.lighting_.suns[static_cast<std::size_t>(index)];
         std::vector<Interval> lit{{0, ray.end()}};
-        if (in.settings_.shadows && sun.shadow)
+        Tint tint;
+        if (in.settings_.shadows && sun.shadow) {
             lit = in.geometry_.lit_by_sun(origin, direction, 0, ray.end(), sun.to_sun);
-        const int source = add_source({Source::Kind::sun, index});
+            tint = in.geometry_.tint_by_sun(origin, direction, 0, ray.end(), sun.to_sun);
+        }
+        const std::vector<double> edges = tint.knots();
+        const int source = add_source({Source::Kind::sun, index, add_tint(std::move(tint))});
         for (const Interval& part : lit) {
-            const std::vector<double> points = split(part);
+            const std::vector<double> points = split(part, edges);
             for (std::size_t i = 0; i + 1 < points.size(); ++i) add_panel(source, points[i], points[i + 1]);
         }
     }
     void add_lamp(const LampPath& path, const Interval& reach) {
         std::vector<Interval> lit{reach};
-        if (in.settings_.shadows && path.lamp->shadow)
-            lit = in.geometry_.lit_by_lamp(origin, direction, reach.begin, reach.end, path.lamp->position);
+        Tint tint;
+        if (in.settings_.shadows && path.lamp->shadow) {
+            const dvec3 lamp = path.lamp->position;
+            lit = in.geometry_.lit_by_lamp(origin, direction, reach.begin, reach.end, lamp);
+            tint = in.geometry_.tint_by_lamp(origin, direction, reach.begin, reach.end, lamp);
+        }
         const int index = static_cast<int>(lamps.size());
         lamps.push_back(path);
-        const int inside = add_source({Source::Kind::lamp_inside, index});
-        const int before = add_source({Source::Kind::lamp_before, index});
-        const int behind = add_source({Source::Kind::lamp_behind, index});
-        const std::vector<double> kinks = path.kinks();
+        std::vector<double> kinks = path.kinks();
+        const std::vector<double> edges = tint.knots();
+        kinks.insert(kinks.end(), edges.begin(), edges.end());
+        const int tinted = add_tint(std::move(tint));
+        const int inside = add_source({Source::Kind::lamp_inside, index, tinted});
+        const int before = add_source({Source::Kind::lamp_before, index, tinted});
+        const int behind = add_source({Source::Kind::lamp_behind, index, tinted});
         for (const Interval& part : lit) {
             const std::vector<double> points = split(part, kinks);
             for (std::size_t i = 0; i + 1 < points.size(); ++i) {

@@ -27,7 +27,8 @@ struct Reference::Impl {
           scattering(geometry, media, lighting, settings) {}
 
     [[nodiscard]] dvec3 surface_radiance(const Geometry::Hit& hit, dvec3 origin, dvec3 direction) const;
-    [[nodiscard]] bool lit(const Surface& surface, bool casts, dvec3 to_light, double distance) const;
+    /// What is left of a light after what lies between: 0 behind what blocks it, a colour behind glass.
+    [[nodiscard]] dvec3 visible(const Surface& surface, bool casts, dvec3 to_light, double distance) const;
 };
 
 namespace {
@@ -41,11 +42,13 @@ double skip_at(dvec3 position) {
 
 }  // namespace
 
-bool Reference::Impl::lit(const Surface& surface, bool casts, dvec3 to_light, double distance) const {
-    if (!settings.shadows || !casts) return true;
-    if (glm::dot(surface.geometric_normal, to_light) <= 0) return false;
+dvec3 Reference::Impl::visible(const Surface& surface, bool casts, dvec3 to_light, double distance) const {
+    if (!settings.shadows || !casts) return dvec3(1);
+    if (glm::dot(surface.geometric_normal, to_light) <= 0) return dvec3(0);
     const double skip = skip_at(surface.position);
-    return !geometry.occluded(surface.position + skip * surface.geometric_normal, to_light, distance, skip);
+    const dvec3 from = surface.position + skip * surface.geometric_normal;
+    if (geometry.occluded(from, to_light, distance, skip)) return dvec3(0);
+    return geometry.tint(from, to_light, distance, skip);
 }
 
 dvec3 Reference::Impl::surface_radiance(const Geometry::Hit& hit, dvec3 origin, dvec3 direction) const {
@@ -53,8 +56,10 @@ dvec3 Reference::Impl::surface_radiance(const Geometry::Hit& hit, dvec3 origin, 
     const dvec3 to_eye = -direction;
     dvec3 radiance = surface.emissive;
     for (const Sun& sun : lighting.suns) {
-        const dvec3 share = reflected(surface, to_eye, sun.to_sun);
-        if (share != dvec3(0) && lit(surface, sun.shadow, sun.to_sun, std::numeric_limits<double>::infinity()))
+        dvec3 share = reflected(surface, to_eye, sun.to_sun);
+        if (share != dvec3(0))
+            share *= visible(surface, sun.shadow, sun.to_sun, std::numeric_limits<double>::infinity());
+        if (share != dvec3(0))
             radiance += sun.illuminance * share *
                         scattering.towards_sun(surface.position, sun.to_sun, scattering.depth_tolerance());
     }
@@ -64,8 +69,9 @@ dvec3 Reference::Impl::surface_radiance(const Geometry::Hit& hit, dvec3 origin, 
         const double distance = glm::length(offset);
         if (illuminance == dvec3(0) || distance == 0) continue;
         const dvec3 to_lamp = -offset / distance;
-        const dvec3 share = reflected(surface, to_eye, to_lamp);
-        if (share != dvec3(0) && lit(surface, lamp.shadow, to_lamp, distance))
+        dvec3 share = reflected(surface, to_eye, to_lamp);
+        if (share != dvec3(0)) share *= visible(surface, lamp.shadow, to_lamp, distance);
+        if (share != dvec3(0))
             radiance += illuminance * share *
                         scattering.towards_lamp(surface.position, to_lamp, distance, scattering.depth_tolerance());
     }

@@ -29,7 +29,8 @@ struct Settings {
 ///
 ///     L = ∫ T(0,t) σ_s(t) Σ_i p(cos θ_i) V_i(t) T_i(t) E_i(t) dt + ∫ T(0,t) e(t) dt + T(0,d) L_surface
 ///
-/// with σ_s p the sum of what the particles and the air at t scatter.
+/// with σ_s p the sum of what the particles and the air at t scatter, and V_i a colour behind transparent surfaces
+/// (Tint), which are not seen themselves.
 /// Rays go on to infinity. Thread-safe after construction; the scene must outlive it and not move.
 class Reference {
   public:

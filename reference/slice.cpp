@@ -106,11 +106,19 @@ std::optional<Shadow> cut(const Caster& caster, const Slice& slice) {
     return s;
 }
 
+double Shadow::ray_at(double u) const {
+    return lerp(numerator[0], numerator[1], u) / lerp(denominator[0], denominator[1], u);
+}
+
+dvec3 Shadow::weights_at(double t) const {
+    // Zero where u darkens t, and linear in u.
+    const double a = numerator[0] - t * denominator[0], b = numerator[1] - t * denominator[1];
+    const double u = a == b ? 0 : std::clamp(a / (a - b), 0.0, 1.0);
+    return weights[0] * (1 - u) + weights[1] * u;
+}
+
 Interval Shadow::on_ray(Interval stretch, const Slice& slice) const {
-    const auto t = [&](double u) {
-        return std::clamp(lerp(numerator[0], numerator[1], u) / lerp(denominator[0], denominator[1], u),
-                          slice.begin, slice.end);
-    };
+    const auto t = [&](double u) { return std::clamp(ray_at(u), slice.begin, slice.end); };
     const double a = t(stretch.begin), b = t(stretch.end);
     return {std::min(a, b), std::max(a, b)};
 }

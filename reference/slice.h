@@ -14,6 +14,7 @@ namespace tyndall::reference {
 /// What casts shadows, to the slicer.
 struct Caster {
     std::array<dvec3, 3> corner;
+    std::uint32_t triangle;  ///< of Geometry::Impl::triangles or glass
     std::array<dvec2, 3> uv;
     dvec3 alpha;           ///< of the corners' colours
     const Material* mask;  ///< null: opaque
@@ -46,8 +47,11 @@ struct Shadow {
     std::array<double, 2> numerator, denominator;
     std::array<dvec3, 2> weights;  ///< of the triangle's corners
 
-    /// What of the ray a stretch of u darkens.
+    /// The distance along the ray that u darkens, and what of the ray a stretch of u does.
+    [[nodiscard]] double ray_at(double u) const;
     [[nodiscard]] Interval on_ray(Interval stretch, const Slice& slice) const;
+    /// Of the triangle's corners, at the point that darkens the ray at t.
+    [[nodiscard]] dvec3 weights_at(double t) const;
 };
 [[nodiscard]] std::optional<Shadow> cut(const Caster& caster, const Slice& slice);
 
@@ -62,6 +66,13 @@ class SliceTree {
 
     /// What of [begin, end] is dark: sorted and disjoint.
     [[nodiscard]] std::vector<Interval> dark(const Slice& slice) const;
+
+    struct Cut {
+        std::uint32_t triangle;  ///< as Caster says
+        Shadow shadow;
+    };
+    /// All casters between the light and [begin, end], in no order.
+    [[nodiscard]] std::vector<Cut> cuts(const Slice& slice) const;
 
   private:
     /// Four boxes, tested together; single precision around `center_`, rounded outwards. An unused one is empty.

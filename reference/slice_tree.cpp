@@ -198,6 +198,14 @@ void SliceTree::visit(const Slice& slice, Visit leaf) const {
     }
 }
 
+std::vector<SliceTree::Cut> SliceTree::cuts(const Slice& slice) const {
+    std::vector<Cut> found;
+    visit(slice, [&](const Caster& caster) {
+        if (const auto shadow = cut(caster, slice)) found.push_back({caster.triangle, *shadow});
+    });
+    return found;
+}
+
 std::vector<Interval> SliceTree::dark(const Slice& slice) const {
     struct Masked {
         const Caster* caster;

@@ -75,8 +75,7 @@ Surface surface_at(const Scene& scene, const Geometry& geometry, const Geometry:
     const double side = hit.front ? 1 : -1;
     s.normal = side * shading_normal(scene, material, at, side * s.geometric_normal);
 
-    s.base_color = dvec3(texture(scene, material.base_color_picture, at.uv, true)) *
-                   dvec3(glm::vec3(material.base_color)) * dvec3(at.color);
+    s.base_color = dvec3(base_color(scene, material, at.uv, at.color));
     const dvec4 metallic_roughness = texture(scene, material.metallic_roughness_picture, at.uv, false);
     s.roughness = metallic_roughness.g * material.roughness;
     s.metallic = metallic_roughness.b * material.metallic;

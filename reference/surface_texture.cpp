@@ -66,6 +66,12 @@ dvec4 sample(const Picture& picture, dvec2 uv, bool srgb) {
     });
 }
 
+dvec4 base_color(const Scene& scene, const Material& material, dvec2 uv, dvec4 vertex_color) {
+    const dvec4 color = dvec4(material.base_color) * vertex_color;
+    if (material.base_color_picture < 0) return color;
+    return color * sample(scene.pictures[static_cast<std::size_t>(material.base_color_picture)], uv, true);
+}
+
 double mask_alpha(const Scene& scene, const Material& material, dvec2 uv) {
     const double factor = material.base_color.a;
     if (material.base_color_picture < 0) return factor;

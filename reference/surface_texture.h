@@ -16,6 +16,9 @@ using glm::dvec4;
 /// (i + 0.5) / size. `srgb`: the colour is decoded before it is filtered; alpha never is. 0..1.
 [[nodiscard]] dvec4 sample(const Picture& picture, dvec2 uv, bool srgb);
 
+/// Linear base colour with alpha: factor times texture times the vertices' colour.
+[[nodiscard]] dvec4 base_color(const Scene& scene, const Material& material, dvec2 uv, dvec4 vertex_color);
+
 /// The alpha that a mask's cutoff is compared with: factor times the base colour texture's.
 [[nodiscard]] double mask_alpha(const Scene& scene, const Material& material, dvec2 uv);
 
