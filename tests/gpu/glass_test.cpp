@@ -190,7 +190,7 @@ class GlassInAir : public Glass {
 constexpr glm::vec3 tint(0.9f, 0.3f, 0.1f);
 
 TEST_F(GlassInAir, ColoursLightThatEachTechniqueScatters) {
-    for (const char* technique : {"ray_march", "froxel", "billboards", "particles", "reference"}) {
+    for (const char* technique : {"ray_march", "froxel", "billboards", "particles", "reference", "epipolar"}) {
         volumetrics_.settings.technique = technique;
         for (const Lit kind : {Lit::sun, Lit::point, Lit::spot}) {
             builder_ = {};

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "tools/level/parts.h"
+#include "tools/level/stained_glass.h"
 #include "tools/level/wall.h"
 #include "tools/modeling/random.h"
 
@@ -20,6 +21,19 @@ bool roofed(int i) {
     return i < 2 || i > 5;
 }
 
+Wall clerestory_wall() {
+    return {{-kBay / 2, 8.0f, 0}, {1, 0, 0}, kBay, kEave - 8.0f, 0.9f, {}, {}, 0.55f};
+}
+Opening clerestory_window() {
+    return pointed_opening(kBay / 2, 2.1f, 1.8f, 3.9f, 6, 0.9f);
+}
+Wall aisle_wall() {
+    return {{-kBay / 2, 0, 0}, {1, 0, 0}, kBay, 7.0f, 0.8f, {}, {}, 0.6f, true};
+}
+Opening lancet() {
+    return pointed_opening(kBay / 2, 2.5f, 1.7f, 4.2f, 5, 0.9f);
+}
+
 // One bay of the wall between nave and aisle; +Z is the nave. `ruin` breaks the top off.
 Mesh arcade_bay(const std::string& name, bool ruin, uint32_t seed) {
     Mesh m{name, {}, mat4(1.0f)};
@@ -31,13 +45,13 @@ Mesh arcade_bay(const std::string& name, bool ruin, uint32_t seed) {
     archivolt(m, Mat::Trim, arcade, arch, 0.42f, 0.10f, 1);
     archivolt(m, Mat::Trim, arcade, arch, 0.24f, 0.19f, 1, 0.03f);
     archivolt(m, Mat::Trim, arcade, arch, 0.36f, 0.10f, -1);
-    Wall clerestory{{-kBay / 2, 8.0f, 0}, {1, 0, 0}, kBay, kEave - 8.0f, 0.9f, {}, {}, 0.55f};
+    Wall clerestory = clerestory_wall();
     if (ruin) {
         clerestory.top = [=](float u) {
             return 6.2f - 5.6f * fractal_noise(vec2(u * 0.8f, 0.5f), {0, 0}, 3, seed);
         };
     } else {
-        clerestory.openings = {pointed_opening(kBay / 2, 2.1f, 1.8f, 3.9f, 6, 0.9f)};
+        clerestory.openings = {clerestory_window()};
     }
     wall(m, Mat::Ashlar, clerestory);
     if (!ruin) archivolt(m, Mat::Trim, clerestory, clerestory.openings[0], 0.26f, 0.10f, 1);
@@ -114,9 +128,8 @@ Mesh transverse_arch(const std::string& name, float upto, bool walled) {
 // Outer wall of an aisle; +Z is outside. Sun comes in through the lancet.
 Mesh aisle_bay(const std::string& name, bool door, bool ruined) {
     Mesh m{name, {}, mat4(1.0f)};
-    Wall w{{-kBay / 2, 0, 0}, {1, 0, 0}, kBay, 7.0f, 0.8f, {}, {}, 0.6f, true};
-    w.openings = {door ? pointed_opening(kBay / 2, 1.5f, 0.0f, 1.75f, 5)
-                       : pointed_opening(kBay / 2, 2.5f, 1.7f, 4.2f, 5, 0.9f)};
+    Wall w = aisle_wall();
+    w.openings = {door ? pointed_opening(kBay / 2, 1.5f, 0.0f, 1.75f, 5) : lancet()};
     if (ruined) {
         w.top = [](float u) {
             const float edge = std::min(u, kBay - u) < 0.02f ? 0.0f : 1.0f;
@@ -208,6 +221,26 @@ Mesh nave_roof(bool whole) {  // over one bay, ridge along x
     return m;
 }
 
+// The sun's side keeps its glass, but for the bays in ruins.
+void glazing(Level& level) {
+    using enum StainedGlass;
+    constexpr StainedGlass order[kBays] = {Amber, Ruby, Cobalt, Ruby, Emerald, Cobalt, Amber, Ruby};
+    int lancets[4], clerestories[4];
+    for (const StainedGlass colour : {Ruby, Cobalt, Emerald, Amber}) {
+        const auto i = static_cast<size_t>(colour);
+        lancets[i] = level.add_mesh(stained_window("stained_lancet", aisle_wall(), lancet(), std::array{colour}));
+        clerestories[i] = level.add_mesh(
+            stained_window("stained_clerestory", clerestory_wall(), clerestory_window(), std::array{colour}));
+    }
+    for (int i = 0; i < kBays; ++i) {
+        const float x = bay_centre(i);
+        const bool ruined = i == 3 || i == 4, door = i == 2;
+        const auto colour = static_cast<size_t>(order[i]), other = static_cast<size_t>(order[(i + 3) % kBays]);
+        if (!ruined && !door) add_stained_window(level, lancets[colour], {x, 0, kAisle}, 0.0f);
+        if (!ruined) add_stained_window(level, clerestories[other], {x, 0, kArcade}, 180.0f);
+    }
+}
+
 void floors(Level& level) {
     Mesh m{"abbey_floor", {}, mat4(1.0f)};
     m.quad(Mat::Flags, {-44.2f, 0, kAisle + 0.2f}, {0.2f, 0, kAisle + 0.2f}, {0.2f, 0, -kAisle - 0.2f},
@@ -276,6 +309,7 @@ void add_abbey(Level& level, const Lamps& lamps, const Props& props) {
                                                   : arch,
                                {-kBay * static_cast<float>(i), 0, 0});
     }
+    glazing(level);
     add_abbey_details(level, lamps, props);
 }
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "tools/level/parts.h"
+#include "tools/level/stained_glass.h"
 #include "tools/level/wall.h"
 #include "tools/modeling/random.h"
 
@@ -25,11 +26,26 @@ void ring(Mesh& m, float x, float cy, float cz, float radius, int segments, cons
     sweep(m, Mat::Trim, path, section, {1, 0, 0}, true);
 }
 
+constexpr float kWest = -44.7f;
+Wall west_wall() {
+    return {{kWest, 0, 5.05f}, {0, 0, -1}, 10.1f, 15.0f, 1.1f, {}};
+}
+Opening west_opening() {
+    return pointed_opening(5.05f, 6.2f, 3.0f, 8.4f, 9, 0.9f);
+}
+
+Wall aisle_end(float s) {
+    return {{kWest + 0.05f, 0, s > 0 ? 9.95f : -4.9f}, {0, 0, -1}, 5.05f, 7.0f, 0.9f, {}};
+}
+Opening aisle_end_window() {
+    return pointed_opening(2.5f, 1.7f, 1.9f, 4.4f, 5);
+}
+
 void west_window(Mesh& m) {
-    const float x = -44.7f;
-    Wall w{{x, 0, 5.05f}, {0, 0, -1}, 10.1f, 15.0f, 1.1f, {}};
+    const float x = kWest;
+    Wall w = west_wall();
     w.top = [](float u) { return 14.9f + std::max(0.0f, 5.05f - std::abs(u - 5.05f)) * 1.28f; };
-    w.openings = {pointed_opening(5.05f, 6.2f, 3.0f, 8.4f, 9, 0.9f)};
+    w.openings = {west_opening()};
     wall(m, Mat::Ashlar, w);
     for (const float side : {1.0f, -1.0f}) {
         archivolt(m, Mat::Trim, w, w.openings[0], 0.5f, 0.10f, side);
@@ -61,8 +77,8 @@ void west_window(Mesh& m) {
     }
     // Ends of the aisles.
     for (const float s : {-1.0f, 1.0f}) {
-        Wall end{{x + 0.05f, 0, s > 0 ? 9.95f : -4.9f}, {0, 0, -1}, 5.05f, 7.0f, 0.9f, {}};
-        end.openings = {pointed_opening(2.5f, 1.7f, 1.9f, 4.4f, 5)};
+        Wall end = aisle_end(s);
+        end.openings = {aisle_end_window()};
         end.top = [=](float u) { return s > 0 ? 6.75f + u * 0.5f : 9.25f - u * 0.5f; };
         wall(m, Mat::Ashlar, end);
         for (const float side : {1.0f, -1.0f}) archivolt(m, Mat::Trim, end, end.openings[0], 0.24f, 0.08f, side);
@@ -321,6 +337,13 @@ void add_abbey_details(Level& level, const Lamps& lamps, const Props& props) {
         level.add_static(std::move(m));
     };
     built("west_window", west_window);
+    using enum StainedGlass;
+    const auto glaze = [&](const Wall& w, const Opening& opening, std::span<const StainedGlass> lights) {
+        add_stained_window(level, level.add_mesh(stained_window("stained_west_window", w, opening, lights)), vec3(0), 0);
+    };
+    glaze(west_wall(), west_opening(), std::array{Cobalt, Ruby, Amber, Cobalt});
+    glaze(aisle_end(1), aisle_end_window(), std::array{Ruby});
+    glaze(aisle_end(-1), aisle_end_window(), std::array{Cobalt});
     built("facade", facade);
     built("bell_tower", bell_tower);
     built("broken_tower", broken_tower);

@@ -45,8 +45,8 @@ struct Checker {
                "triangles: " + std::to_string(triangles) + ", allowed " + std::to_string(kTriangleBudget));
         expect(bytes <= kByteBudget,
                "file size: " + std::to_string(bytes) + " bytes, allowed " + std::to_string(kByteBudget));
-        expect(materials.materials.size() <= 25,
-               "materials: " + std::to_string(materials.materials.size()) + ", allowed 25");
+        expect(materials.materials.size() <= 26,
+               "materials: " + std::to_string(materials.materials.size()) + ", allowed 26");
         const size_t lamps = level.lights.size() - 1;
         expect(lamps >= 250 && lamps <= 400, "lamps: " + std::to_string(lamps) + ", expected 250 to 400");
     }

@@ -103,6 +103,11 @@ MaterialSet make_materials() {
     pond.roughness = 0.05f;
     pond.normal = ripples;
     pond.blend = true;
+    Material& stained = set.add("stained_glass");
+    stained.albedo = set.image(encode_albedo(paint(512, paint_stained_glass), "stained_glass_albedo", 92));
+    stained.roughness = 0.15f;
+    stained.transmission = 1.0f;
+    stained.double_sided = true;
     return std::move(set.out);
 }
 

@@ -9,7 +9,7 @@ using namespace modeling;
 
 struct Mat : Surface {
     static const Mat Ashlar, Trim, Rubble, Flags, Cobbles, Plaster, Timber, Planks, Slate, Clay, Grass, Rock, Hills,
-        Bark, Leaves, Iron, ClothRed, ClothBlue, ClothOchre, Lantern, Paper, Window, Water, Glass, Pond;
+        Bark, Leaves, Iron, ClothRed, ClothBlue, ClothOchre, Lantern, Paper, Window, Water, Glass, Pond, Stained;
 };
 inline constexpr Mat Mat::Ashlar{{0, 2.4f}};
 inline constexpr Mat Mat::Trim{{1, 1.5f}};
@@ -36,6 +36,7 @@ inline constexpr Mat Mat::Window{{21, 0.8f}};
 inline constexpr Mat Mat::Water{{22, 3.0f}};
 inline constexpr Mat Mat::Glass{{23, 1.0f}};
 inline constexpr Mat Mat::Pond{{24, 1.5f}};
+inline constexpr Mat Mat::Stained{{25, 1.0f}};
 
 // In the order of Mat.
 MaterialSet make_materials();

@@ -76,6 +76,8 @@ Texel paint_iron(glm::vec2 uv);
 Texel paint_cloth(glm::vec2 uv);
 Texel paint_water(glm::vec2 uv);
 Texel paint_window(glm::vec2 uv);
+// Four windows side by side, each with its main colour: see StainedGlass.
+Texel paint_stained_glass(glm::vec2 uv);
 
 // Shared colour helpers.
 inline float smooth_between(float a, float b, float x) {

@@ -115,6 +115,9 @@ struct Writer {
             m.doubleSided = from.double_sided;
             if (from.mask) m.alphaMode = "MASK";
             if (from.blend) m.alphaMode = "BLEND";
+            if (from.transmission > 0.0f)
+                m.extensions["KHR_materials_transmission"] =
+                    Value(Object{{"transmissionFactor", Value(rounded(from.transmission))}});
             if (from.emissive_strength > 0.0f) {
                 m.emissiveFactor = numbers(from.emissive);
                 if (from.glow_from_albedo) m.emissiveTexture.index = from.albedo;

@@ -33,6 +33,7 @@ struct Material {
     glm::vec3 emissive{0.0f};
     float emissive_strength = 0.0f;  // cd/m^2 for emissive 1
     bool glow_from_albedo = false;   // the albedo texture also modulates the emission
+    float transmission = 0.0f;       // of light that crosses the surface, coloured as it
     bool mask = false, blend = false, double_sided = false;
 };
 

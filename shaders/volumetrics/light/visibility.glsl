@@ -34,6 +34,13 @@
 bool is_dark(float visible) { return visible <= 0.0; }
 bool is_dark(vec3 visible) { return all(lessThanEqual(visible, vec3(0.0))); }
 
+#if EPIPOLAR && GLASS
+// The trees tell how much of a segment is lit; the colour of that is the mean over so many points of it that are lit.
+const int GLASS_POINTS = 8;
+
+vec3 mean_lit(vec4 sum) { return sum.a > 0.0 ? sum.rgb / sum.a : vec3(1.0); }
+#endif
+
 // Where visibility is sampled for a point of the ray.
 vec3 visibility_point(Ray ray, float t) { return ray.origin + ray.visibility_direction * t; }
 
@@ -64,7 +71,18 @@ Visibility sun_visibility_at(vec3 point, float view_depth) {
 EpipolarRay sun_epipolar_ray = EpipolarRay(0, 1, 0.0, 0.0, 1.0, 0.0, 1.0);  // set once a pixel
 
 Visibility sun_share(Ray ray, float begin, float end, float fall, float offset) {
-    return epipolar_share(sun_epipolar_ray, Gathering(begin, end, fall, vec4(0.0), false));
+    float share = epipolar_share(sun_epipolar_ray, Gathering(begin, end, fall, vec4(0.0), false));
+#if GLASS
+    vec4 lit = vec4(0.0);
+    for (int i = 0; i < GLASS_POINTS && share > 0.0; ++i) {
+        float t = mix(begin, end, equal_transmittance((float(i) + 0.5) / float(GLASS_POINTS), fall));
+        vec3 visible = sun_visibility_at(visibility_point(ray, t), t * ray.forward_cosine);
+        if (!is_dark(visible)) lit += vec4(visible, 1.0);
+    }
+    return share * mean_lit(lit);
+#else
+    return share;
+#endif
 }
 #else
 Visibility sun_share(Ray ray, float begin, float end, float fall, float offset) {
@@ -74,21 +92,36 @@ Visibility sun_share(Ray ray, float begin, float end, float fall, float offset) 
 #endif
 #endif
 
+// Over all offsets the point is distributed as the light is: in the inverse square (Kulla and Fajardo 2012), and in what
+// else varies by its four nodes.
+vec3 lamp_point(Ray ray, GpuLight light, LampRay lamp, vec2 reach, vec4 parts, float offset) {
+    float a = reach.x - lamp.t_closest;
+    float span = reach.y - reach.x;
+    LampIntegral integral = lamp_integral(a, a + span, span, lamp.h, light.intensity_radius.w);
+    float advance = clamp(lamp_advance(integral, lamp_segment_place(parts, offset) * integral.total), 0.0, span);
+    return visibility_point(ray, reach.x + advance);
+}
+
 // Of a lamp's light over [reach.x, reach.y] of the ray, of which each node of lamp_segment has its part.
 Visibility lamp_share(Ray ray, uint index, GpuLight light, LampRay lamp, vec2 reach, vec4 parts, float offset) {
 #if EPIPOLAR
     if (light.cone_shadow.z < 0.0) return Visibility(1.0);
     EpipolarRay of_lamp = epipolar_ray(1 + int(index), ray.direction);
     if (of_lamp.cells == 0) return Visibility(1.0);  // what is at the eye sees what the eye sees
-    return epipolar_share(of_lamp, Gathering(reach.x, reach.y, 0.0, parts, true));
+    float share = epipolar_share(of_lamp, Gathering(reach.x, reach.y, 0.0, parts, true));
+#if GLASS
+    vec4 lit = vec4(0.0);
+    for (int i = 0; i < GLASS_POINTS && share > 0.0 && light.cone_shadow.w > 0.0; ++i) {
+        vec3 visible = lamp_visibility(
+            index, light, lamp_point(ray, light, lamp, reach, parts, (float(i) + 0.5) / float(GLASS_POINTS)));
+        if (!is_dark(visible)) lit += vec4(visible, 1.0);
+    }
+    return share * mean_lit(lit);
 #else
-    // Over all offsets the point is distributed as the light is: in the inverse square (Kulla and Fajardo 2012), and in
-    // what else varies by its four nodes.
-    float a = reach.x - lamp.t_closest;
-    float span = reach.y - reach.x;
-    LampIntegral integral = lamp_integral(a, a + span, span, lamp.h, light.intensity_radius.w);
-    float advance = clamp(lamp_advance(integral, lamp_segment_place(parts, offset) * integral.total), 0.0, span);
-    return lamp_visibility(index, light, visibility_point(ray, reach.x + advance));
+    return share;
+#endif
+#else
+    return lamp_visibility(index, light, lamp_point(ray, light, lamp, reach, parts, offset));
 #endif
 }
 
