@@ -18,6 +18,8 @@ layout(binding = UNIT_LAMP_GLASS) uniform sampler2DArray lamp_glass_map;
 // those from `low` to `high` are read; nearness: of the point, as a.
 vec3 glass_texels(sampler2DArray maps, int layer, vec2 place, ivec2 low, ivec2 high, float nearness) {
     vec2 corner = floor(place - 0.5);
+    vec4 any_glass = textureGather(maps, vec3((corner + 1.0) / vec2(textureSize(maps, 0).xy), float(layer)), 3);
+    if (all(equal(any_glass, vec4(0.0)))) return vec3(1.0);  // nearly everywhere
     vec2 further = place - 0.5 - corner;
     vec4 sum = vec4(0.0);
     for (int i = 0; i < 4; ++i) {

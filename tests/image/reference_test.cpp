@@ -106,6 +106,34 @@ TEST_F(ReferenceCommand, IsThePictureThatRenderDraws) {
     EXPECT_LT(far_off, shown.size.x * shown.size.y / 100);
 }
 
+// Glass above the floor: what it leaves of the light of the floor and of the air. Neither shows the glass itself.
+TEST_F(ReferenceCommand, GlassColoursLightAsItDoesInTheGroundTruth) {
+    for (const bool sun : {true, false}) {
+        SceneSpec spec{.media = R"([{"shape":"global","scattering":[0.05,0.05,0.05],"anisotropy":0.3}])"};
+        spec.sun = sun;
+        if (!sun) spec.lamps = {{{-2, 5, -1}, 50, 14}};
+        const auto difference = [&](const std::string& layer, const std::string& technique) {
+            const std::vector<std::string> options{"--layer",   layer,         "--set",
+                                                   "ambient=0", "--technique", technique};
+            std::vector<std::string> exact = options;
+            exact.insert(exact.end(), {"--set", "steps=128", "--set", "filter=none", "--set", "noise=none"});
+            return relative_rmse(picture("render", exact), picture("reference", options));
+        };
+        spec.glass = true;
+        write_scene(folder_ / "scene.gltf", spec);
+        for (const char* technique : {"ray_march", "epipolar"}) {
+            EXPECT_LT(difference("scattering", technique), 0.02) << technique << (sun ? " sun" : " lamp");
+        }
+        const double tinted = difference("color", "ray_march");
+        const std::vector<std::string> scattered{"--layer", "scattering", "--set", "ambient=0"};
+        const Image glass = picture("reference", scattered);
+        spec.glass = false;
+        write_scene(folder_ / "scene.gltf", spec);
+        EXPECT_GT(relative_rmse(glass, picture("reference", scattered)), 0.05) << "it does colour light";
+        EXPECT_LT(tinted, difference("color", "ray_march") + 0.02) << "more than other edges of shadows do";
+    }
+}
+
 // What two integrators of air and haze agree on, one on the GPU in single precision.
 TEST_F(ReferenceCommand, IsTheTechniqueReferenceInAirAndHaze) {
     write_scene(folder_ / "scene.gltf", {.sun = true, .media = R"([

@@ -339,7 +339,8 @@ void add_abbey_details(Level& level, const Lamps& lamps, const Props& props) {
     built("west_window", west_window);
     using enum StainedGlass;
     const auto glaze = [&](const Wall& w, const Opening& opening, std::span<const StainedGlass> lights) {
-        add_stained_window(level, level.add_mesh(stained_window("stained_west_window", w, opening, lights)), vec3(0), 0);
+        add_stained_window(level, level.add_mesh(stained_window("stained_west_window", w, opening, lights)),
+                           vec3(0), 0);
     };
     glaze(west_wall(), west_opening(), std::array{Cobalt, Ruby, Amber, Cobalt});
     glaze(aisle_end(1), aisle_end_window(), std::array{Ruby});

@@ -58,8 +58,11 @@ Piece quarry(float x, float y, int main) {
 }  // namespace
 
 Texel paint_stained_glass(vec2 uv) {
-    constexpr vec3 colours[] = {{0.86f, 0.06f, 0.07f}, {0.10f, 0.24f, 0.92f}, {0.08f, 0.66f, 0.24f},
-                                {1.00f, 0.62f, 0.10f}, {1.00f, 0.88f, 0.62f}};
+    constexpr vec3 colours[] = {{0.86f, 0.06f, 0.07f},
+                                {0.10f, 0.24f, 0.92f},
+                                {0.08f, 0.66f, 0.24f},
+                                {1.00f, 0.62f, 0.10f},
+                                {1.00f, 0.88f, 0.62f}};
     const float column = uv.x * kColours;
     const int main = std::min(static_cast<int>(column), kColours - 1);
     const float x = (column - static_cast<float>(main) - 0.5f) * 2.0f * kHalf, y = (1.0f - uv.y) * kHeight;
@@ -83,7 +86,8 @@ Texel paint_stained_glass(vec2 uv) {
     return t;
 }
 
-Mesh stained_window(const std::string& name, const Wall& w, const Opening& o, std::span<const StainedGlass> lights) {
+Mesh stained_window(const std::string& name, const Wall& w, const Opening& o,
+                    std::span<const StainedGlass> lights) {
     Mesh m{name, {}, mat4(1.0f)};
     const float left = o.us.front(), width = (o.us.back() - left) / static_cast<float>(lights.size());
     const float low = *std::ranges::min_element(o.lower), high = *std::ranges::max_element(o.upper);

@@ -55,7 +55,7 @@ vec3 glass_over_segment(Ray ray, Segment segment, float fall) {
     vec3 sum = vec3(0.0);
     for (int i = 0; i < 2; ++i) {
         float t = mix(segment.begin, segment.end, equal_transmittance(0.25 + 0.5 * float(i), fall));
-        count_work(WORK_TEXTURE_FETCHES, 4u);
+        count_work(WORK_TEXTURE_FETCHES, 1u);
         sum += sun_filter(ray.origin + ray.direction * t, t * ray.forward_cosine);
     }
     return 0.5 * sum;

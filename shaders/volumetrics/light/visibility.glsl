@@ -48,7 +48,7 @@ Visibility lamp_visibility(uint index, GpuLight light, vec3 point) {
     if (light.cone_shadow.z < 0.0) return Visibility(1.0);
     count_work(WORK_SHADOW_LOOKUPS, 1u);
 #if GLASS
-    count_work(WORK_TEXTURE_FETCHES, 4u);
+    count_work(WORK_TEXTURE_FETCHES, 1u);
     return light_visibility(index, light, point) * light_filter(index, light, point);
 #else
     return light_visibility(index, light, point);
@@ -59,7 +59,7 @@ Visibility lamp_visibility(uint index, GpuLight light, vec3 point) {
 Visibility sun_visibility_at(vec3 point, float view_depth) {
     count_work(WORK_SHADOW_LOOKUPS, 1u);
 #if GLASS && !FROXEL_HISTORY
-    count_work(WORK_TEXTURE_FETCHES, 4u);
+    count_work(WORK_TEXTURE_FETCHES, 1u);
     return sun_visibility(point, view_depth) * sun_filter(point, view_depth);
 #else
     return Visibility(sun_visibility(point, view_depth));

@@ -55,6 +55,19 @@ void add_geometry(json& gltf) {
     gltf["nodes"].push_back({{"name", "ground"}, {"mesh", 0}});
 }
 
+/// A level sheet, 10 x 10 m at y = 3, left of the camera, seen from above alone.
+void add_glass(json& gltf) {
+    gltf["accessors"].push_back({{"bufferView", 2}, {"componentType", 5123}, {"count", 6}, {"type", "SCALAR"}});
+    gltf["materials"].push_back(
+        {{"pbrMetallicRoughness", {{"baseColorFactor", {0.9, 0.3, 0.1, 1}}, {"metallicFactor", 0}}},
+         {"extensions", {{"KHR_materials_transmission", {{"transmissionFactor", 0.9}}}}}});
+    gltf["meshes"].push_back(
+        {{"primitives", {{{"attributes", {{"POSITION", 0}, {"NORMAL", 1}}}, {"indices", 3}, {"material", 1}}}}});
+    gltf["nodes"].push_back(
+        {{"name", "glass"}, {"mesh", 1}, {"translation", {-5, 3, 0}}, {"scale", {0.25, 0.25, 0.25}}});
+    gltf["extensionsUsed"].push_back("KHR_materials_transmission");
+}
+
 }  // namespace
 
 void write_scene(const std::filesystem::path& path, const SceneSpec& spec) {
@@ -64,6 +77,7 @@ void write_scene(const std::filesystem::path& path, const SceneSpec& spec) {
     gltf["cameras"] = {
         {{"name", "camera"}, {"type", "perspective"}, {"perspective", {{"yfov", 1.0}, {"znear", 0.1}}}}};
     if (spec.floor) add_geometry(gltf);
+    if (spec.glass) add_glass(gltf);
     json lights = json::array();
     const auto add_light = [&](json light, json node) {
         node["extensions"]["KHR_lights_punctual"]["light"] = lights.size();
@@ -82,7 +96,7 @@ void write_scene(const std::filesystem::path& path, const SceneSpec& spec) {
     }
     if (!lights.empty()) {
         gltf["extensions"]["KHR_lights_punctual"]["lights"] = lights;
-        gltf["extensionsUsed"] = {"KHR_lights_punctual"};
+        gltf["extensionsUsed"].push_back("KHR_lights_punctual");
     }
     json roots = json::array();
     for (std::size_t i = 0; i < gltf["nodes"].size(); ++i) roots.push_back(i);

@@ -21,6 +21,7 @@ struct SceneSpec {
     std::vector<Lamp> lamps = {};
     std::string media = "[]";  ///< JSON list, as in extras.media
     bool floor = true;
+    bool glass = false;  ///< a sheet above the floor that colours light
 };
 void write_scene(const std::filesystem::path& path, const SceneSpec& spec);
 

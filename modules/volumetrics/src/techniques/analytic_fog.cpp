@@ -34,7 +34,7 @@ TechniqueDesc analytic_fog() {
             .help = "Fog in closed form with unshadowed suns; no lamps, no local media.",
             .settings = "fog_mode",
             .passes = {"volumetrics/analytic_fog"},
-            .traits = {.local_media = false},
+            .traits = {.glass = false, .local_media = false},
             .add = add_analytic_fog};
 }
 

@@ -21,7 +21,8 @@ const ProgramDesc lines_program{.name = "volumetrics/epipolar_lines",
 const ProgramRegistry::Registration lines_registration(lines_program);
 
 bool is_valid(const Permutation& p) {
-    return is_grid_permutation(p) && is_glass_permutation(p) && (p.at("HEIGHT_MEDIA") == MAX_HEIGHT_MEDIA || p.at("LOCAL_MEDIA") == 1);
+    return is_grid_permutation(p) && is_glass_permutation(p) &&
+           (p.at("HEIGHT_MEDIA") == MAX_HEIGHT_MEDIA || p.at("LOCAL_MEDIA") == 1);
 }
 
 const ProgramDesc program{.name = "volumetrics/epipolar",
