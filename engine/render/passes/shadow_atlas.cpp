@@ -330,9 +330,10 @@ int ShadowAtlasPass::first_tile(std::size_t scene_light_index) const {
 void ShadowAtlasPass::bind() const {
     glBindTextureUnit(UNIT_SHADOW_ATLAS, atlas_.id());
     glBindSampler(UNIT_SHADOW_ATLAS, texels_.id());
+    if (tile_buffer_) tile_buffer_.bind(GL_SHADER_STORAGE_BUFFER, BINDING_SHADOW_TILES);
+    if (!glass_) return;
     glBindTextureUnit(UNIT_LAMP_GLASS, glass_.id());
     glBindSampler(UNIT_LAMP_GLASS, texels_.id());
-    if (tile_buffer_) tile_buffer_.bind(GL_SHADER_STORAGE_BUFFER, BINDING_SHADOW_TILES);
 }
 
 }  // namespace tyndall

@@ -183,6 +183,7 @@ void ShadowSunPass::bind() const {
     glBindTextureUnit(UNIT_SUN_STATIC, static_.id());
     glBindSampler(UNIT_SUN_CASCADES, texels_.id());
     glBindSampler(UNIT_SUN_STATIC, texels_.id());
+    if (!glass_) return;
     glBindTextureUnit(UNIT_SUN_GLASS, glass_.id());
     glBindSampler(UNIT_SUN_GLASS, texels_.id());
 }

@@ -25,6 +25,7 @@ layout(std140, binding = BINDING_FRAME) uniform StubBlock {
     vec4 stub_sun_illuminance;
     vec4 stub_ambient;
     vec4 stub_options;  // x slices, y thickness, z shadows
+    vec4 stub_glass;
 };
 layout(std430, binding = BINDING_LIGHTS) readonly buffer StubLights { GpuLight stub_lights[]; };
 layout(std430, binding = BINDING_CLUSTERS) readonly buffer StubRanges { ClusterRange stub_ranges[]; };
@@ -61,6 +62,10 @@ float light_visibility(uint index, GpuLight light, vec3 world) {
     }
     return fract(1.6 * atan(v.z, v.x) + 0.3 * float(index)) < 0.6 ? 1.0 : 0.0;
 }
+#if GLASS
+vec3 sun_filter(vec3 world, float view_depth) { return world.x < 0.0 ? stub_glass.rgb : vec3(1.0); }
+vec3 light_filter(uint index, GpuLight light, vec3 world) { return sun_filter(world, 0.0); }
+#endif
 )";
 
 constexpr const char* shadow_maps_glsl = R"(
@@ -81,7 +86,7 @@ float light_occluder(uint index, GpuLight light, vec3 world) {
 )";
 
 struct StubBlock {
-    glm::vec4 sun_direction, sun_illuminance, ambient, options;
+    glm::vec4 sun_direction, sun_illuminance, ambient, options, glass;
 };
 
 Image as_rgb(const Image& image, int channel) {
@@ -137,7 +142,7 @@ glm::vec3 StubHost::ray(int x, int y) const {
 
 void StubHost::upload() {
     const StubBlock block{glm::vec4(sun_direction, 0), glm::vec4(sun_illuminance, 0), glm::vec4(ambient, 0),
-                          glm::vec4(slices, slice_depth, shadows, 0)};
+                          glm::vec4(slices, slice_depth, shadows, 0), glm::vec4(glass.value_or(glm::vec3(1)), 0)};
     uniforms_.assign(std::span(&block, 1), "stub host uniforms");
     lights_.assign(std::span<const shared::GpuLight>(lights), "stub host lights");
     std::vector<shared::ClusterRange> ranges;
@@ -193,6 +198,7 @@ Inputs StubHost::inputs(PassList& passes) {
         list_.bind(GL_SHADER_STORAGE_BUFFER, BINDING_CLUSTER_LIGHTS);
     };
     in.has_shadow_maps = has_shadow_maps;
+    in.has_glass = glass.has_value();
     in.count_work = count_work;
     in.frame_index = frame_index;
     return in;

@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -76,6 +77,7 @@ class StubHost {
     /// the half x < 0 of the plane z = -6 shadows lamps. 3: the half x < 0 of the plane y = 4 shadows the sun.
     int shadows = 0;
     bool has_shadow_maps = true;
+    std::optional<glm::vec3> glass;  ///< what it leaves of the light of x < 0
     std::uint32_t frame_index = 0;
     bool count_work = false;
 

@@ -1,0 +1,74 @@
+// Light of a host that has glass: coloured by what its shaders say, in every technique that asks them.
+
+#include <gtest/gtest.h>
+
+#include "tests/gpu/support/gl_test.h"
+#include "tests/gpu/support/volumetrics_host.h"
+
+namespace tyndall::test {
+namespace {
+
+class VolumetricsHostGlass : public GlTest {
+  protected:
+    VolumetricsHostGlass() {
+        host.size = {9, 4};
+        host.view_depth = [](int, int) { return 8.0F; };
+        host.sun_illuminance = glm::vec3(100);
+        settings.march.steps = 64;
+        settings.reference.steps = 64;
+        settings.froxels.x = 8;
+        settings.froxels.y = 4;
+    }
+    StubHost host;
+    Settings settings = plain_settings(64);
+};
+
+TEST_F(VolumetricsHostGlass, ColoursSunAndLampsAndNothingElse) {
+    const glm::vec3 color(0.8F, 0.4F, 0.1F);
+    for (const bool local : {false, true}) {
+        host.global = {{.sigma_s = glm::vec3(0.05F), .anisotropy = 0.3F}};
+        host.local.clear();
+        if (local) host.local = {{.center = {0, 0, -5}, .half_extent = glm::vec3(4), .sigma_s = glm::vec3(0.1F)}};
+        for (const bool sun : {true, false}) {
+            host.has_sun = sun;
+            host.lights.clear();
+            if (!sun) host.lights = {point_light({0, 3, -5}, 100)};
+            for (const char* technique : {"ray_march", "froxel", "billboards", "particles", "epipolar", "reference"}) {
+                settings.technique = technique;
+                host.glass.reset();
+                const Image clear = host.render(settings).scattering;
+                host.glass = color;
+                const Image tinted = host.render(settings).scattering;
+                for (int c = 0; c < 3; ++c) {
+                    const std::string what = std::string(technique) + (sun ? " sun" : " lamp") +
+                                             (local ? " local" : "") + " channel " + std::to_string(c);
+                    EXPECT_GT(clear.at(0, 1)[c], 0) << what;
+                    EXPECT_NEAR(tinted.at(0, 1)[c] / clear.at(0, 1)[c], color[c], 0.01) << what << " behind";
+                    EXPECT_NEAR(tinted.at(8, 1)[c] / clear.at(8, 1)[c], 1, 0.01) << what << " beside";
+                }
+            }
+        }
+    }
+    host.has_sun = false;
+    host.lights.clear();
+    host.ambient = glm::vec3(1);
+    settings.technique = "ray_march";
+    const Image lit = host.render(settings).scattering;
+    host.glass.reset();
+    EXPECT_EQ(lit.pixels, host.render(settings).scattering.pixels) << "the sky's light comes through no glass";
+}
+
+TEST_F(VolumetricsHostGlass, IsNotInThePassesOfTechniquesThatDoNotAsk) {
+    host.global = {{.sigma_s = glm::vec3(0.05F)}};
+    host.has_sun = true;
+    for (const char* technique : {"shaft_geometry", "analytic_fog", "radial_shafts"}) {
+        settings.technique = technique;
+        host.glass.reset();
+        const Image clear = host.render(settings).scattering;
+        host.glass = glm::vec3(0.1F);
+        EXPECT_EQ(clear.pixels, host.render(settings).scattering.pixels) << technique;
+    }
+}
+
+}  // namespace
+}  // namespace tyndall::test
