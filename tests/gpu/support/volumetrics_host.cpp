@@ -144,7 +144,9 @@ void StubHost::upload() {
     const StubBlock block{glm::vec4(sun_direction, 0), glm::vec4(sun_illuminance, 0), glm::vec4(ambient, 0),
                           glm::vec4(slices, slice_depth, shadows, 0), glm::vec4(glass.value_or(glm::vec3(1)), 0)};
     uniforms_.assign(std::span(&block, 1), "stub host uniforms");
-    lights_.assign(std::span<const shared::GpuLight>(lights), "stub host lights");
+    std::vector<shared::GpuLight> listed_lights = lights;
+    for (shared::GpuLight& light : listed_lights) light.cone_shadow.w = glass ? 1.0F : 0.0F;
+    lights_.assign(std::span<const shared::GpuLight>(listed_lights), "stub host lights");
     std::vector<shared::ClusterRange> ranges;
     std::vector<std::uint32_t> list;
     for (int slice = 0; slice < slices; ++slice) {

@@ -19,6 +19,10 @@ class VolumetricsHostGlass : public GlTest {
         settings.froxels.x = 8;
         settings.froxels.y = 4;
     }
+    [[nodiscard]] Image scattering() {
+        host.volumetrics().forget_history();
+        return host.render(settings).scattering;
+    }
     StubHost host;
     Settings settings = plain_settings(64);
 };
@@ -33,18 +37,19 @@ TEST_F(VolumetricsHostGlass, ColoursSunAndLampsAndNothingElse) {
             host.has_sun = sun;
             host.lights.clear();
             if (!sun) host.lights = {point_light({0, 3, -5}, 100)};
-            for (const char* technique : {"ray_march", "froxel", "billboards", "particles", "epipolar", "reference"}) {
+            for (const char* technique :
+                 {"ray_march", "froxel", "billboards", "particles", "epipolar", "reference"}) {
                 settings.technique = technique;
                 host.glass.reset();
-                const Image clear = host.render(settings).scattering;
+                const Image clear = scattering();
                 host.glass = color;
-                const Image tinted = host.render(settings).scattering;
+                const Image tinted = scattering();
                 for (int c = 0; c < 3; ++c) {
                     const std::string what = std::string(technique) + (sun ? " sun" : " lamp") +
                                              (local ? " local" : "") + " channel " + std::to_string(c);
                     EXPECT_GT(clear.at(0, 1)[c], 0) << what;
-                    EXPECT_NEAR(tinted.at(0, 1)[c] / clear.at(0, 1)[c], color[c], 0.01) << what << " behind";
-                    EXPECT_NEAR(tinted.at(8, 1)[c] / clear.at(8, 1)[c], 1, 0.01) << what << " beside";
+                    EXPECT_NEAR(tinted.at(0, 1)[c] / clear.at(0, 1)[c], color[c], 0.02) << what << " behind";
+                    EXPECT_NEAR(tinted.at(8, 1)[c] / clear.at(8, 1)[c], 1, 0.02) << what << " beside";
                 }
             }
         }
@@ -53,9 +58,9 @@ TEST_F(VolumetricsHostGlass, ColoursSunAndLampsAndNothingElse) {
     host.lights.clear();
     host.ambient = glm::vec3(1);
     settings.technique = "ray_march";
-    const Image lit = host.render(settings).scattering;
+    const Image lit = scattering();
     host.glass.reset();
-    EXPECT_EQ(lit.pixels, host.render(settings).scattering.pixels) << "the sky's light comes through no glass";
+    EXPECT_EQ(lit.pixels, scattering().pixels) << "the sky's light comes through no glass";
 }
 
 TEST_F(VolumetricsHostGlass, IsNotInThePassesOfTechniquesThatDoNotAsk) {
@@ -64,9 +69,9 @@ TEST_F(VolumetricsHostGlass, IsNotInThePassesOfTechniquesThatDoNotAsk) {
     for (const char* technique : {"shaft_geometry", "analytic_fog", "radial_shafts"}) {
         settings.technique = technique;
         host.glass.reset();
-        const Image clear = host.render(settings).scattering;
+        const Image clear = scattering();
         host.glass = glm::vec3(0.1F);
-        EXPECT_EQ(clear.pixels, host.render(settings).scattering.pixels) << technique;
+        EXPECT_EQ(clear.pixels, scattering().pixels) << technique;
     }
 }
 
