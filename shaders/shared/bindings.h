@@ -30,6 +30,7 @@
 #define UNIT_GRID_PAGES 4  // and 5: grid.glsl
 #define UNIT_GRID_BRICKS 5
 #define UNIT_NOISE 6         // noise_offset.glsl
+#define UNIT_EPIPOLAR 6      // and 7: epipolar_rays.glsl
 #define UNIT_FOG_COLUMNS 6
 #define UNIT_FOG_RADIANCE 7
 #define UNIT_SUN_GLASS 7       // 7 and 15: glass_lookup.glsl, beside 8 to 11 where no fog is applied

@@ -32,16 +32,32 @@ struct EpipolarLines {
     int lines;
     int cells;         // a line, a power of two; 0: the light has no lines
     int nodes;         // index of the first line's
+    int samples;       // along each line (epipolar_samples.glsl)
+    float first_sample;
+    float samples_per_radian;
 };
+
+// Of parallel light the place among the cells of what is so far (m) from the axis.
+float epipolar_sun_place(EpipolarLines lines, float radius) {
+    return log(1.0 + radius / EPIPOLAR_RADIUS) * lines.cells_per_unit;
+}
 
 // Where the i-th entry of a list lies in its texture.
 ivec2 epipolar_texel(int i) { return ivec2(i & ((1 << EPIPOLAR_ROW_BITS) - 1), i >> EPIPOLAR_ROW_BITS); }
 
 EpipolarLines epipolar_lines(sampler2D table, int light) {
-    vec4 a = texelFetch(table, epipolar_texel(3 * light), 0);
-    vec4 b = texelFetch(table, epipolar_texel(3 * light + 1), 0);
-    vec4 c = texelFetch(table, epipolar_texel(3 * light + 2), 0);
-    return EpipolarLines(a.xyz, a.w, b.xyz, b.w, c.x, int(c.y), int(c.z), int(c.w));
+    vec4 a = texelFetch(table, epipolar_texel(4 * light), 0);
+    vec4 b = texelFetch(table, epipolar_texel(4 * light + 1), 0);
+    vec4 c = texelFetch(table, epipolar_texel(4 * light + 2), 0);
+    vec4 d = texelFetch(table, epipolar_texel(4 * light + 3), 0);
+    return EpipolarLines(a.xyz, a.w, b.xyz, b.w, c.x, int(c.y), int(c.z), int(c.w), int(d.z), d.x, d.y);
+}
+
+// Where a direction lies among the lines: 0.5 in the middle of the first one.
+float epipolar_line(EpipolarLines lines, vec3 across) {
+    float angle = atan(dot(across, cross(lines.axis, lines.first)), dot(across, lines.first));
+    if (angle < 0.0) angle += EPIPOLAR_TWO_PI;
+    return angle * lines.lines_per_radian;
 }
 
 #endif

@@ -1,5 +1,6 @@
 // The lines of one light, see epipolar.glsl: one group for each. Of a line of n cells nodes n .. 2n - 1 are its cells and
-// node i has the children 2i and 2i + 1; each holds the smallest and the largest slope.
+// node i has the children 2i and 2i + 1; each holds the smallest and the largest slope. Node 0 holds how many cells are made:
+// of a line with samples those that they see.
 #include "shaders/interface/lights.glsl"
 #include "shaders/interface/shadow_maps.glsl"
 #include "shaders/volumetrics/frame/data.glsl"
@@ -10,7 +11,10 @@ const int THREADS = 64;
 layout(local_size_x = THREADS) in;
 layout(rg32f, binding = 0) writeonly uniform image2D nodes;
 layout(binding = 0) uniform sampler2D table;
-uniform int light;  // 0 the sun, 1 + i lamp i
+layout(binding = 1) uniform sampler2D cells_seen;  // of the sun's lines
+uniform int light;    // 0 the sun, 1 + i lamp i
+uniform bool sampled;  // the sun's lines are
+
 
 shared vec2 node[MOST_CELLS];
 
@@ -36,8 +40,8 @@ float lamp_slope(EpipolarLines lines, vec3 across, float place) {
 }
 
 // Makes a tree of `count` nodes of a level of `level` nodes, which lie `stride` apart in `node` from `first` on; leaves its
-// root at `first`.
-void merge(int root, int first, int count, int stride, int level) {
+// root at `first`. What begins behind `made` of all cells, a share of them, is not stored.
+void merge(int root, int first, int count, int stride, int level, float made) {
     int begin = first / stride;  // of the nodes in their level
     while (count > 1) {
         count /= 2;
@@ -48,7 +52,8 @@ void merge(int root, int first, int count, int stride, int level) {
             vec2 b = node[first + (2 * i + 1) * stride];
             vec2 merged = vec2(min(a.x, b.x), max(a.y, b.y));
             node[first + i * stride] = merged;
-            imageStore(nodes, epipolar_texel(root + level + begin + i), vec4(merged, 0.0, 0.0));
+            if (float(begin + i) < made * float(level))
+                imageStore(nodes, epipolar_texel(root + level + begin + i), vec4(merged, 0.0, 0.0));
         }
     }
 }
@@ -61,19 +66,26 @@ void main() {
     vec3 across = cos(angle) * lines.first + sin(angle) * cross(lines.axis, lines.first);
     int root = lines.nodes + line * 2 * lines.cells;
 
+    bool counted = light == 0 && sampled;
+    int made = counted ? int(texelFetch(cells_seen, ivec2(line, 0), 0).x) : lines.cells;
+    if (thread == 0) imageStore(nodes, epipolar_texel(root), vec4(float(made)));
+    float share_made = float(made) / float(lines.cells);
+
     int part = max(lines.cells / THREADS, 1);  // cells of a thread
     int parts = lines.cells / part;
     if (thread < parts) {
-        for (int cell = thread * part; cell < (thread + 1) * part; ++cell) {
+        int begin = thread * part;
+        for (int cell = begin; cell < begin + part; ++cell) node[cell] = vec2(EPIPOLAR_LARGEST, -EPIPOLAR_LARGEST);
+        for (int cell = begin; cell < min(begin + part, made); ++cell) {
             float place = float(cell) + 0.5;
             float slope = lines.distance == 0.0 ? sun_slope(lines, across, place) : lamp_slope(lines, across, place);
             count_work(WORK_SHADOW_LOOKUPS, 1u);
             node[cell] = vec2(clamp(slope, -EPIPOLAR_LARGEST, EPIPOLAR_LARGEST));
             imageStore(nodes, epipolar_texel(root + lines.cells + cell), vec4(node[cell], 0.0, 0.0));
         }
-        merge(root, thread * part, part, 1, lines.cells);
+        if (begin < made) merge(root, begin, part, 1, lines.cells, share_made);
     }
     barrier();
-    if (thread == 0) merge(root, 0, parts, part, parts);
+    if (thread == 0 && made > 0) merge(root, 0, parts, part, parts, share_made);
     flush_work();
 }

@@ -9,11 +9,13 @@
 
 layout(binding = 2) uniform sampler2D epipolar_table;
 layout(binding = 3) uniform sampler2D epipolar_nodes;
+uniform int coarsest_level;  // 0: cell after cell
 
 // A view ray in its half plane.
 struct EpipolarRay {
     int root;  // index of the line's nodes
     int cells;
+    int last;  // cell that was made
     float slope;
     float cosine;  // of the ray's angle to the axis
     float sine;
@@ -26,11 +28,9 @@ EpipolarRay epipolar_ray(int light, vec3 direction) {
     float cosine = dot(direction, lines.axis);
     vec3 across = direction - cosine * lines.axis;
     float sine = length(across);
-    float angle = atan(dot(across, cross(lines.axis, lines.first)), dot(across, lines.first));
-    if (angle < 0.0) angle += EPIPOLAR_TWO_PI;
-    int line = clamp(int(angle * lines.lines_per_radian), 0, lines.lines - 1);
+    int line = clamp(int(epipolar_line(lines, across)), 0, lines.lines - 1);
     float slope = clamp(cosine / max(sine, 1.0e-9), -EPIPOLAR_LARGEST, EPIPOLAR_LARGEST);
-    return EpipolarRay(lines.nodes + line * 2 * lines.cells, lines.cells, slope, cosine, sine, lines.distance,
+    return EpipolarRay(lines.nodes + line * 2 * lines.cells, lines.cells, lines.cells - 1, slope, cosine, sine, lines.distance,
                        lines.cells_per_unit);
 }
 
@@ -38,7 +38,7 @@ EpipolarRay epipolar_ray(int light, vec3 direction) {
 float epipolar_place(EpipolarRay ray, float t) {
     float units = ray.distance == 0.0 ? log(1.0 + t * ray.sine / EPIPOLAR_RADIUS)
                                       : atan(t * ray.sine, ray.distance - t * ray.cosine);
-    return min(units * ray.cells_per_unit, float(ray.cells));
+    return min(units * ray.cells_per_unit, float(ray.last + 1));
 }
 float epipolar_distance(EpipolarRay ray, float place) {
     return EPIPOLAR_RADIUS * (exp(place / ray.cells_per_unit) - 1.0) / max(ray.sine, 1.0e-9);
@@ -61,24 +61,34 @@ float gathered_before(EpipolarRay ray, Gathering light, float place, vec2 places
     return light.by_parts ? lamp_segment_share(light.parts, share) : share_before(share, light.fall);
 }
 
+// Of the largest node that begins with the cell and ends with `last` or before.
+int epipolar_level(EpipolarRay ray, int cell, int last) {
+    return min(min(findLSB(cell | ray.cells), findMSB(last - cell + 1)), coarsest_level);
+}
+
 // 0 .. 1. Light gathered is added where visibility begins and taken away where it ends.
 float epipolar_share(EpipolarRay ray, Gathering light) {
     vec2 places = vec2(epipolar_place(ray, light.begin), epipolar_place(ray, light.end));
-    int begin = min(int(places.x), ray.cells - 1);
-    int last = clamp(int(places.y), begin, ray.cells - 1);
+    int begin = min(int(places.x), ray.last);
+    int last = clamp(int(places.y - 0.5), begin, ray.last);
     int cell = begin;
-    vec2 whole = texelFetch(epipolar_nodes, epipolar_texel(ray.root + 1), 0).xy;
-    count_work(WORK_TREE_NODES, 1u);
-    if (ray.slope >= whole.y) return 1.0;
-    if (ray.slope < whole.x) return 0.0;
-    int level = min(findLSB(cell | ray.cells), findMSB(last - cell + 1));
+    // The only cell may have its middle beyond the part's end, as near the axis of parallel light.
+    float slope = ray.slope;
+    if (begin == last && ray.distance == 0.0) slope *= 0.5 * (places.x + places.y) / (float(begin) + 0.5);
+    if (coarsest_level > 0) {
+        vec2 whole = texelFetch(epipolar_nodes, epipolar_texel(ray.root + 1), 0).xy;
+        count_work(WORK_TREE_NODES, 1u);
+        if (slope >= whole.y) return 1.0;
+        if (slope < whole.x) return 0.0;
+    }
+    int level = epipolar_level(ray, cell, last);
     bool lit = false;
     float share = 0.0;
     while (cell <= last) {
         vec2 node = texelFetch(epipolar_nodes, epipolar_texel(ray.root + ((ray.cells + cell) >> level)), 0).xy;
         count_work(WORK_TREE_NODES, 1u);
-        bool all_lit = ray.slope >= node.y;
-        if (!all_lit && ray.slope >= node.x) {
+        bool all_lit = slope >= node.y;
+        if (!all_lit && slope >= node.x) {
             --level;
             continue;
         }
@@ -88,7 +98,7 @@ float epipolar_share(EpipolarRay ray, Gathering light) {
             lit = all_lit;
         }
         cell += 1 << level;
-        level = min(findLSB(cell | ray.cells), findMSB(last - cell + 1));
+        level = epipolar_level(ray, cell, last);
     }
     return clamp(lit ? share + 1.0 : share, 0.0, 1.0);
 }

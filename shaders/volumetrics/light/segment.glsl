@@ -9,6 +9,11 @@
 #include "shaders/volumetrics/frame/ray.glsl"
 #include "shaders/volumetrics/media/scattering.glsl"
 
+// 1: global media have no other light.
+#ifndef SUN_ALONE
+#define SUN_ALONE 0
+#endif
+
 struct March {
     vec3 radiance;
     Extinction transmittance;
@@ -70,7 +75,10 @@ void add_global(Ray ray, float begin, float end, vec3 ambient, inout Extinction 
     Medium m = global_medium(ray.origin.y + ray.direction.y * begin, ray.direction.y, end - begin);
     count_work(WORK_MEDIUM_SAMPLES, 1u);
     Optics optics = medium_optics(m, end - begin);
-    vec3 gathered = (m.sigma_s * ambient + m.emission) * optics.effective_length;
+    vec3 gathered = vec3(0.0);
+#if !SUN_ALONE
+    gathered = (m.sigma_s * ambient + m.emission) * optics.effective_length;
+#endif
 #if HAS_SUN
     SunSegment sun = sun_segment(ray, begin, end, optics, sun_front);
     gathered += sun_scattering(ray, m, sun.effective_length);

@@ -68,7 +68,7 @@ Visibility sun_visibility_at(vec3 point, float view_depth) {
 
 // Of sunlight that falls by exp(-fall) from `begin` to `end`.
 #if EPIPOLAR
-EpipolarRay sun_epipolar_ray = EpipolarRay(0, 1, 0.0, 0.0, 1.0, 0.0, 1.0);  // set once a pixel
+EpipolarRay sun_epipolar_ray = EpipolarRay(0, 1, 0, 0.0, 0.0, 1.0, 0.0, 1.0);  // set once a pixel
 
 Visibility sun_share(Ray ray, float begin, float end, float fall, float offset) {
     float share = epipolar_share(sun_epipolar_ray, Gathering(begin, end, fall, vec4(0.0), false));

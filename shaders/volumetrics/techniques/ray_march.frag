@@ -2,7 +2,9 @@
 // Along a pixel's view ray, per segment [a, b]:
 //     L += T(0,a) int_a^b T(a,t) (sigma_s sum_i p V_i T_i E_i + e) dt,    T(0,b) = T(0,a) exp(-optical depth of [a,b])
 // Media, transmittances and the inverse square of lamps are integrated in closed form, or nearly; only visibility is sampled,
-// once a segment, at an offset that differs from pixel to pixel; EPIPOLAR: without noise, by the trees of epipolar.glsl.
+// once a segment, at an offset that differs from pixel to pixel; EPIPOLAR: without noise, by the trees of epipolar.glsl,
+// 2: without the sun, whose light along the whole ray comes from samples of its lines (epipolar_sunlight.glsl), each of which
+// is what SUN_ALONE draws.
 //
 // PARTS: the unshadowed light of sun and lamps, without noise, and the visible share of it are stored apart
 // (relight.frag), so that only the latter is filtered.
@@ -17,11 +19,16 @@
 #endif
 #define SUN_APART (PARTS == 1 && HAS_SUN == 1)
 #define LAMPS_APART (PARTS == 1 && LAMPS == 2)
+#define SUMS_APART (PARTS == 1 || LOCAL_MEDIA == 2 || EPIPOLAR > 0)
+#ifndef SUN_ALONE
+#define SUN_ALONE 0
+#endif
 
 #include "shaders/volumetrics/reconstruction/noise_offset.glsl"
 #include "shaders/volumetrics/light/part.glsl"
 #include "shaders/volumetrics/light/segment_light.glsl"
 #include "shaders/lib/pack.glsl"
+#include "shaders/volumetrics/light/epipolar_sunlight.glsl"
 #if LOCAL_MEDIA == 2
 #include "shaders/volumetrics/light/local_segment.glsl"
 #endif
@@ -47,7 +54,7 @@ layout(location = LAMPS_LOCATION + 1) out vec4 out_lamps_share;
 // Half of the smallest half-float number: a transmittance of this is stored as 0, and nothing behind it shows.
 const float OPAQUE = 2.98e-8;
 
-#if PARTS || LOCAL_MEDIA == 2
+#if SUMS_APART
 Part sun_light = Part(vec3(0.0), vec3(0.0));
 Part lamp_light = Part(vec3(0.0), vec3(0.0));
 #endif
@@ -217,7 +224,7 @@ void march_segment(Ray ray, float a, float b, float offset, inout Extinction sun
     Optics optics = medium_optics(m, path_length);
     Segment segment = Segment(a, b, offset, m.anisotropy, volumetrics.homogeneous_sigma_s.rgb,
                               volumetrics.homogeneous_sigma_t.rgb);
-#if PARTS
+#if SUMS_APART
     SegmentLight light = segment_light_parts(ray, segment, m, optics, ambient, sun_front);
     march.radiance += march.transmittance * light.diffuse;
     sun_light.visible += march.transmittance * light.sun_visibility * light.sun;
@@ -232,9 +239,15 @@ void march_segment(Ray ray, float a, float b, float offset, inout Extinction sun
 #endif
 
 void main() {
-    vec2 uv = screen_place(gl_FragCoord.xy);
-    Ray ray = view_ray(uv);
-    float depth = texelFetch(depth_texture, ivec2(gl_FragCoord.xy), 0).r;
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+#if SUN_ALONE
+    if (!is_wanted(pixel)) discard;
+#endif
+    Ray ray = view_ray(screen_place(gl_FragCoord.xy));
+#if SUN_ALONE
+    if (of_samples) ray = sample_ray(pixel, pixel);
+#endif
+    float depth = texelFetch(depth_texture, pixel, 0).r;
     count_work(WORK_TEXTURE_FETCHES, 1u);
     float surface = ray_distance_from_view_depth(view_depth_from_buffer(depth, volumetrics.eye.w), ray.forward_cosine);
     float begin = 0.0;
@@ -259,8 +272,11 @@ void main() {
 
     March march = March(vec3(0.0), Extinction(1.0));
     Extinction sun_front = Extinction(0.0);
-#if EPIPOLAR && HAS_SUN
+#if EPIPOLAR == 1 && HAS_SUN
     sun_epipolar_ray = epipolar_ray(0, ray.direction);
+#if SUN_ALONE
+    end_with_samples(sun_epipolar_ray);
+#endif
 #endif
 #if HAS_SUN
     sun_front = to_extinction(sun_optical_depth(ray.origin.y + ray.direction.y * begin, -sun_direction()));
@@ -287,13 +303,22 @@ void main() {
         step_length *= volumetrics.step_growth;
         a = b;
     }
+#if SUN_ALONE
+    march.radiance = vec3(0.0);
+#endif
     if (volumetrics.has_global != 0u && surface > end && end >= volumetrics.max_distance)
         march_tail(ray, end, surface, is_background(depth), ambient, sun_front, march);
-#if LOCAL_MEDIA == 2 && PARTS == 0
+#if EPIPOLAR == 2
+    march.radiance += sunlight(pixel, march.transmittance);
+#endif
+#if SUMS_APART && PARTS == 0
     march.radiance += sun_light.visible + lamp_light.visible;
 #endif
 
     out_scattering = round_to_half(vec4(march.radiance, average(march.transmittance)));
+#if SUN_ALONE
+    out_scattering = sun_source(march.radiance, march.transmittance);
+#endif
 #if CHROMATIC
     out_transmittance = round_to_half(vec4(march.transmittance, average(march.transmittance)));
 #endif

@@ -30,7 +30,7 @@ struct Pass {
     };
     std::string name;
     const gl::Program& program;
-    std::vector<Source> sources = {};     ///< on texture units 0, 1, 2 …; an empty one leaves its unit empty
+    std::vector<Source> sources = {};     ///< on texture units 0, 1, 2 …; an empty one leaves its unit as it is
     std::vector<BufferRef> buffers = {};  ///< that it reads
     Fog fog = {};                         ///< that it reads by shaders/volumetrics/frame/apply.glsl
     std::vector<TextureRef*> targets =

@@ -118,6 +118,9 @@ struct ShaftGeometrySettings {
 struct EpipolarSettings {
     float spacing = 1;       ///< px, 0.25 … 16
     int cells = 1024;        ///< of the sun: a power of two, 64 … 2048
+    int step = 1;            ///< samples, a power of two, 1 … 32; 1: every pixel asks the trees
+    float tolerance = 0.1f;  ///< 0.001 … 1, relative, of depth
+    bool tree = true;
     float lamp_spacing = 1;  ///< px, 0.25 … 64
     int lamp_cells = 512;    ///< a power of two, 16 … 2048
     int lamp_rays = 32;      ///< 1 … 1024 a pixel, of all lamps

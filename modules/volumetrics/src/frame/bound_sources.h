@@ -12,10 +12,11 @@ class BoundSources {
   public:
     BoundSources(const PassContext& context, const std::vector<Pass::Source>& sources, const Resources& resources)
         : count_(static_cast<GLuint>(sources.size())) {
-        GLuint unit = 0;
-        for (const auto& [texture, linear] : sources) {
-            glBindTextureUnit(unit, texture ? context.texture(texture).id : 0);
-            glBindSampler(unit++, (linear ? resources.linear : resources.nearest).id());
+        for (GLuint unit = 0; unit < count_; ++unit) {
+            const auto& [texture, linear] = sources[unit];
+            if (!texture) continue;
+            glBindTextureUnit(unit, context.texture(texture).id);
+            glBindSampler(unit, (linear ? resources.linear : resources.nearest).id());
         }
     }
     ~BoundSources() {

@@ -330,6 +330,23 @@ SettingsTable& growing_settings_table() {
                         {"epipolar_cells", "Epipolar cells",
                          "Technique epipolar: sun rays along each line; edges of shafts are as fine as a cell."},
                         {64, 128, 256, 512, 1024, 2048}, Effect::resource)
+            .integer_of(
+                in(&S::epipolar, &EpipolarSettings::step),
+                {"epipolar_step", "Epipolar step",
+                 "Technique epipolar: one in so many samples along each of the sun's lines, and those beside "
+                 "breaks of depth, ask the trees; between them the share of sunlight is interpolated. 1: every "
+                 "pixel asks."},
+                {1, 2, 4, 8, 16, 32}, Effect::resource)
+            .real(in(&S::epipolar, &EpipolarSettings::tolerance),
+                  {"epipolar_tolerance", "Epipolar tolerance",
+                   "Technique epipolar: relative difference of depth beyond which samples do not stand for each "
+                   "other or for a pixel. Of use where epipolar_step is over 1."},
+                  0.001, 1, Scale::logarithmic)
+            .boolean(
+                in(&S::epipolar, &EpipolarSettings::tree),
+                {"epipolar_tree", "Epipolar tree",
+                 "Technique epipolar: off, rays read every cell they cross, as without trees; to compare work."},
+                Effect::uniform)
             .real(in(&S::epipolar, &EpipolarSettings::lamp_spacing),
                   {"epipolar_lamp_spacing", "Epipolar lamp spacing",
                    "Technique epipolar: distance of a lamp's lines where they are widest apart in what it lights.",

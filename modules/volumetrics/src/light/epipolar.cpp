@@ -95,6 +95,17 @@ EpipolarLines lines_round(const Picture& picture, glm::vec3 axis, float most_ang
     return lines;
 }
 
+/// As many as the angles to the axis that the picture shows need, and one beyond each end.
+void place_samples(EpipolarLines& lines, const Picture& picture, float spacing) {
+    const float middle = std::acos(std::clamp(glm::dot(picture.middle, lines.axis), -1.0F, 1.0F));
+    const float first = std::max(middle - picture.reach, 0.0F);
+    const float last = std::min(middle + picture.reach, std::numbers::pi_v<float>);
+    const float most = static_cast<float>(most_epipolar_samples - 4) / (last - first);
+    lines.samples_per_radian = std::min(1 / (picture.pixel * spacing), most);
+    lines.first_sample = std::floor(first * lines.samples_per_radian) - 1;
+    lines.samples = static_cast<int>(std::ceil(last * lines.samples_per_radian) + 2 - lines.first_sample);
+}
+
 EpipolarLines sun_lines(const Picture& picture, glm::vec3 to_sun, const Settings& settings, float spacing) {
     EpipolarLines lines = lines_round(picture, to_sun, two_pi, spacing, 512);
     const float farthest = settings.march.max_distance * largest_sine(picture, to_sun, two_pi);
@@ -145,6 +156,7 @@ EpipolarPlan plan_epipolar(const Inputs& inputs, const Settings& settings, glm::
         EpipolarLines sun = sun_lines(picture, -inputs.sun_direction, settings, spacing);
         while (nodes_of(sun) > most_epipolar_nodes / 2)
             sun = sun_lines(picture, -inputs.sun_direction, settings, spacing *= 2);
+        if (samples_lines(settings)) place_samples(sun, picture, spacing);
         with_sun.add(sun, 0);
     }
     constexpr int least_pixels = 128 * 128;
@@ -160,15 +172,23 @@ EpipolarPlan plan_epipolar(const Inputs& inputs, const Settings& settings, glm::
     }
 }
 
+glm::mat4 direction_to_pixel(const Inputs& inputs, glm::vec2 pixels) {
+    const glm::mat4 clip = inputs.projection * glm::mat4(glm::mat3(inputs.view));
+    glm::mat4 to_pixel(0);
+    for (int i = 0; i < 3; ++i) to_pixel[i] = {0.5F * pixels * (glm::vec2(clip[i]) + clip[i].w), clip[i].w, 0};
+    return to_pixel;
+}
+
 std::vector<glm::vec4> EpipolarPlan::table() const {
     std::uint32_t count = 1;
     for (const EpipolarLines& light : lights) count = std::max(count, light.index + 1);
-    std::vector<glm::vec4> texels(3 * std::size_t{count}, glm::vec4(0));
+    std::vector<glm::vec4> texels(4 * std::size_t{count}, glm::vec4(0));
     for (const EpipolarLines& light : lights) {
-        glm::vec4* texel = &texels[3 * std::size_t{light.index}];
+        glm::vec4* texel = &texels[4 * std::size_t{light.index}];
         texel[0] = {light.axis, light.distance};
         texel[1] = {light.first, light.lines_per_radian};
         texel[2] = {light.cells_per_unit, light.lines, light.cells, light.nodes};
+        texel[3] = {light.first_sample, light.samples_per_radian, light.samples, 0};
     }
     return texels;
 }

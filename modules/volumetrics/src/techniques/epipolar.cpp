@@ -1,15 +1,19 @@
 #include "light/epipolar.h"
 
 #include <bit>
+#include <optional>
 
 #include "engine/gl/texture.h"
 #include "frame/resources.h"
 #include "media/noise_volume.h"
+#include "techniques/epipolar_sunlight.h"
 #include "techniques/techniques.h"
 #include "volumetrics/frame.h"
 
 // The march of ray_march.frag without noise: what a light reaches of each segment comes from trees over rectified
-// shadow maps (shaders/volumetrics/light/epipolar.glsl), so that segments are no finer than media ask for.
+// shadow maps (shaders/volumetrics/light/epipolar.glsl), so that segments are no finer than media ask for. With
+// samples the sun's share of whole rays is taken at few samples along its lines (epipolar_samples.glsl), and pixels
+// are given it from there.
 
 namespace tyndall::volumetrics {
 namespace {
@@ -20,15 +24,17 @@ const ProgramDesc lines_program{.name = "volumetrics/epipolar_lines",
                                 .valid = {}};
 const ProgramRegistry::Registration lines_registration(lines_program);
 
+/// EPIPOLAR 2 is without the sun, see epipolar_sunlight.h.
 bool is_valid(const Permutation& p) {
-    return is_grid_permutation(p) && is_glass_permutation(p) &&
-           (p.at("HEIGHT_MEDIA") == MAX_HEIGHT_MEDIA || p.at("LOCAL_MEDIA") == 1);
+    if (!is_epipolar_permutation(p) || !is_glass_permutation(p)) return false;
+    if (p.at("EPIPOLAR") == 1) return true;
+    return p.at("GLASS") == 0 && p.at("HAS_SUN") == 0 && (p.at("GRIDS") == 0 || p.at("LOCAL_MEDIA") == 2);
 }
 
 const ProgramDesc program{.name = "volumetrics/epipolar",
                           .stages = {{GL_VERTEX_SHADER, "shaders/volumetrics/techniques/view_ray.vert"},
                                      {GL_FRAGMENT_SHADER, "shaders/volumetrics/techniques/ray_march.frag"}},
-                          .axes = {{"EPIPOLAR", {1}},
+                          .axes = {{"EPIPOLAR", {1, 2}},
                                    {"HEIGHT_MEDIA", {0, MAX_HEIGHT_MEDIA}},
                                    {"LOCAL_MEDIA", {1, 2}},  // 1: none is in view
                                    {"GRIDS", {0, 1}},
@@ -63,7 +69,8 @@ TextureRef upload_table(Frame& frame, const EpipolarPlan& plan) {
     return frame.passes.import("volumetrics/epipolar_lights", texture);
 }
 
-TextureRef add_lines(Frame& frame, const EpipolarPlan& plan, TextureRef table) {
+/// `cells_seen`: of the sun's lines by their samples; or empty.
+TextureRef add_lines(Frame& frame, const EpipolarPlan& plan, TextureRef table, TextureRef cells_seen) {
     if (plan.lights.empty()) {
         frame.skip("volumetrics/epipolar_lines", "no light in view that casts shadows");
         return {};
@@ -73,10 +80,11 @@ TextureRef add_lines(Frame& frame, const EpipolarPlan& plan, TextureRef table) {
     const gl::Program& lines = frame.program(lines_program);
     frame.add({.name = "volumetrics/epipolar_lines",
                .program = lines,
-               .sources = {{table}},
+               .sources = {{table}, {cells_seen}},
                .images = {{&nodes}},
                .lit = true,
-               .draw = [&lines, lights = plan.lights] {
+               .draw = [&lines, lights = plan.lights, sampled = static_cast<bool>(cells_seen)] {
+                   lines.set("sampled", static_cast<int>(sampled));
                    for (const EpipolarLines& light : lights) {
                        lines.set("light", static_cast<int>(light.index));
                        glDispatchCompute(static_cast<GLuint>(light.lines), 1, 1);
@@ -93,30 +101,52 @@ Estimate add(Frame& frame) {
     }
     const EpipolarPlan plan = plan_epipolar(frame.inputs, frame.settings, frame.size);
     const TextureRef table = upload_table(frame, plan);
-    const TextureRef nodes = add_lines(frame, plan, table);
+    std::optional<EpipolarSunlight> sunlight;
+    const char* pixels_march = !frame.inputs.has_sun            ? "no sun"
+                               : !samples_lines(frame.settings) ? "epipolar_step is 1"
+                               : frame.media.through_glass      ? "glass colours light finer than samples are apart"
+                                                                : nullptr;
+    if (pixels_march == nullptr)
+        sunlight.emplace(frame, plan.lights.front(), table);
+    else
+        for (const std::string& name : epipolar_sunlight_passes()) frame.skip(name, pixels_march);
+    const TextureRef nodes = add_lines(frame, plan, table, sunlight ? sunlight->counts : TextureRef{});
+    Permutation permutation = epipolar_permutation(frame);
+    permutation["EPIPOLAR"] = 1;
+    permutation["LAMPS"] = frame.inputs.has_lamps ? 2 : 0;
+    Pass::Source samples, fixed_up;
+    if (sunlight) {
+        sunlight->add_passes(nodes);
+        samples = {sunlight->unwarped};
+        fixed_up = {sunlight->fixed_up};
+        permutation["EPIPOLAR"] = 2;
+        permutation["HAS_SUN"] = 0;
+        if (frame.media.uses_grids) permutation["LOCAL_MEDIA"] = 2;
+    }
     Estimate estimate = frame.create_estimate();
-    const bool local = !frame.media.local.empty();
-    const bool heights = local || height_media_axis(frame.media) > 0;
     frame.add({.name = "volumetrics/epipolar",
-               .program = frame.program(program, {{"EPIPOLAR", 1},
-                                                  {"HEIGHT_MEDIA", heights ? MAX_HEIGHT_MEDIA : 0},
-                                                  {"LOCAL_MEDIA", local ? 2 : 1},
-                                                  {"LAMPS", frame.inputs.has_lamps ? 2 : 0}}),
-               .sources = {{frame.depth}, {noise_volume(frame), true}, {table}, {nodes}},
+               .program = frame.program(program, permutation),
+               .sources = {{frame.depth}, {noise_volume(frame), true}, {table}, {nodes}, {}, {}, samples, fixed_up},
                .targets = {&estimate.scattering, &estimate.transmittance},
                .lit = true,
                .light_volumes = true,
-               .local_media = true});
+               .local_media = true,
+               .set = [tree = frame.settings.epipolar.tree](const PassContext&, const gl::Program& march) {
+                   march.set("coarsest_level", coarsest_epipolar_level(tree));
+               }});
     return estimate;
 }
 
 }  // namespace
 
 TechniqueDesc epipolar() {
+    std::vector<std::string> passes{"volumetrics/epipolar_lines", "volumetrics/noise_volume",
+                                    "volumetrics/epipolar"};
+    passes.insert(passes.end(), epipolar_sunlight_passes().begin(), epipolar_sunlight_passes().end());
     return {.name = "epipolar",
             .help = "Marches with shares of light from min/max trees along epipolar lines: sharp, without noise.",
             .settings = "epipolar_",
-            .passes = {"volumetrics/epipolar_lines", "volumetrics/noise_volume", "volumetrics/epipolar"},
+            .passes = passes,
             .traits = {.sampling = Sampling::exact, .any_resolution = true},
             .add = add};
 }
