@@ -82,7 +82,7 @@ TEST_F(VolumetricsPasses, MoreHeightMediaThanTheBlockHoldsAreAnError) {
     EXPECT_THROW(host.render(Settings{}), Error);
 }
 
-constexpr std::size_t most_permutations = 670;
+constexpr std::size_t most_permutations = 700;
 
 TEST_F(VolumetricsPasses, PermutationsBuildWithinWhatOpenGlPromises) {
     ShaderLibrary engine_lighting(data_root());
