@@ -5,6 +5,8 @@
 namespace tyndall::stress {
 namespace {
 
+// No glass: on both sides of it light has other colours, which neighbours of a pixel and other techniques find a
+// texel apart; tests/gpu/glass_test.cpp and tests/image/reference_test.cpp compare it.
 Scene furnished(bool dynamic) {
     test::SceneBuilder builder;
     const int white = builder.material(glm::vec3(1), 1);

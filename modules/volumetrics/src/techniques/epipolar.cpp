@@ -59,10 +59,9 @@ Inputs with_lamps(Inputs inputs, const std::vector<Lamp>& lamps) {
     return inputs;
 }
 
-/// Samples hold light without a colour of its own.
 const char* reason_for_no_samples(const Frame& frame) {
     if (!frame.inputs.has_sun) return "no sun";
-    if (frame.media.through_glass) return "light comes through glass";
+    if (frame.media.through_glass) return "glass colours light finer than samples are apart";
     return samples_lines(frame.settings) ? nullptr : "epipolar_step is 1";
 }
 
