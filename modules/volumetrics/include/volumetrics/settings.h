@@ -22,7 +22,7 @@ enum class DepthChoice { min, max, checkerboard };
 enum class Upsample { nearest, bilinear, bilateral, nearest_depth };
 enum class Temporal { off, blend, ema, acceptance, accumulate };
 enum class TemporalPlace { before, after };
-enum class PhaseFunction { henyey_greenstein, schlick, cornette_shanks, double_henyey_greenstein };
+enum class PhaseFunction { henyey_greenstein, schlick, cornette_shanks, double_henyey_greenstein, hg_draine };
 enum class DepthDistribution { linear, exponential, logarithmic, curve, automatic };
 enum class FogMode { linear, squared, exponential, height };
 enum class RadialOcclusion { coverage, intervals };
@@ -43,6 +43,7 @@ struct LightSettings {
     PhaseFunction phase = PhaseFunction::henyey_greenstein;
     float back_anisotropy = -0.5f;  ///< -0.999 … 0, of double_henyey_greenstein
     float back_weight = 0.2f;       ///< 0 … 1
+    float droplet_diameter = 10;    ///< um, 5 … 50, of hg_draine
     int scattering_orders = 1;      ///< 1 … 8, of sunlight in density grids
 };
 /// Of techniques that sample.

@@ -55,9 +55,10 @@ SettingsTable& growing_settings_table() {
             .choice(in(&S::light, &LightSettings::phase),
                     {"phase", "Phase function",
                      "Of all media but air: Henyey-Greenstein; Schlick's approximation of it, which is slightly "
-                     "cheaper; Cornette-Shanks, which becomes Rayleigh's as the anisotropy goes to 0; or a second, "
-                     "backward lobe of Henyey-Greenstein."},
-                    {"henyey_greenstein", "schlick", "cornette_shanks", "double_henyey_greenstein"},
+                     "cheaper; Cornette-Shanks, which becomes Rayleigh's as the anisotropy goes to 0; a second, "
+                     "backward lobe of Henyey-Greenstein; or that of water droplets, Henyey-Greenstein and Draine, "
+                     "whatever the media's anisotropies."},
+                    {"henyey_greenstein", "schlick", "cornette_shanks", "double_henyey_greenstein", "hg_draine"},
                     Effect::uniform)
             .real(in(&S::light, &LightSettings::back_anisotropy),
                   {"phase_back_anisotropy", "Back lobe anisotropy",
@@ -67,6 +68,12 @@ SettingsTable& growing_settings_table() {
                   {"phase_back_weight", "Back lobe weight",
                    "Share of the light that double_henyey_greenstein scatters in its backward lobe."},
                   0, 1)
+            .real(in(&S::light, &LightSettings::droplet_diameter),
+                  {"phase_droplet_diameter", "Droplet diameter",
+                   "Of the phase function hg_draine: about 10 in clouds, 5 to 20 in fog; larger ones scatter "
+                   "farther forward.",
+                   "um"},
+                  5, 50)
             .integer(in(&S::light, &LightSettings::scattering_orders),
                      {"scattering_orders", "Scattering orders",
                       "Of sunlight in density grids: 1 is scattered once, which is what the references have; more "
