@@ -66,6 +66,7 @@ struct ResolutionSettings {
     Resolution size = Resolution::full;
     DepthChoice depth = DepthChoice::checkerboard;
     Upsample upsample = Upsample::bilateral;
+    float tolerance = 0.1f;  ///< 0.01 … 1: differences of low pixels beyond it are drawn anew, of density grids
 };
 struct TemporalSettings {
     Temporal mode = Temporal::accumulate;

@@ -154,6 +154,12 @@ SettingsTable& growing_settings_table() {
                      "From lower to full resolution: the nearest pixel; bilinear; bilinear without pixels of other "
                      "depths; or the pixel of the nearest depth, where depths differ."},
                     {"nearest", "bilinear", "bilateral", "nearest_depth"}, Effect::uniform)
+            .real(in(&S::resolution, &ResolutionSettings::tolerance),
+                  {"resolution_tolerance", "Tolerance for grids",
+                   "Where density grids are in view of ray_march or epipolar at a lower resolution: pixels around "
+                   "which light or transmittance bend by more than this part are drawn again at full resolution; "
+                   "1: none are."},
+                  0.01, 1, Scale::logarithmic)
             .choice(in(&S::temporal, &TemporalSettings::mode),
                     {"temporal", "Temporal filter",
                      "Mean over frames: none; of the same pixel, ugly in motion; an exponential mean along "

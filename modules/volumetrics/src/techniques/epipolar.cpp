@@ -95,16 +95,21 @@ Estimate add(Frame& frame) {
     Estimate estimate = frame.create_estimate();
     const bool local = !frame.media.local.empty();
     const bool heights = local || height_media_axis(frame.media) > 0;
-    frame.add({.name = "volumetrics/epipolar",
-               .program = frame.program(program, {{"EPIPOLAR", 1},
-                                                  {"HEIGHT_MEDIA", heights ? MAX_HEIGHT_MEDIA : 0},
-                                                  {"LOCAL_MEDIA", local ? 2 : 1},
-                                                  {"LAMPS", frame.inputs.has_lamps ? 2 : 0}}),
-               .sources = {{frame.depth}, {noise_volume(frame), true}, {table}, {nodes}},
-               .targets = {&estimate.scattering, &estimate.transmittance},
-               .lit = true,
-               .light_volumes = true,
-               .local_media = true});
+    estimate.redraw = [&march = frame.program(program, {{"EPIPOLAR", 1},
+                                                        {"HEIGHT_MEDIA", heights ? MAX_HEIGHT_MEDIA : 0},
+                                                        {"LOCAL_MEDIA", local ? 2 : 1},
+                                                        {"LAMPS", frame.inputs.has_lamps ? 2 : 0}}),
+                       noise = noise_volume(frame), table, nodes](const std::string& name, TextureRef depth) {
+        return Pass{.name = name,
+                    .program = march,
+                    .sources = {{depth}, {noise, true}, {table}, {nodes}},
+                    .lit = true,
+                    .light_volumes = true,
+                    .local_media = true};
+    };
+    Pass pass = estimate.redraw("volumetrics/epipolar", frame.depth);
+    pass.targets = {&estimate.scattering, &estimate.transmittance};
+    frame.add(pass);
     return estimate;
 }
 
