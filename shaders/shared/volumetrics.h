@@ -113,7 +113,7 @@ struct VolumetricsData {
     uint scattering_orders;     // of sunlight in density grids
     float second_alpha;         // of the second lobe
     float droplet_anisotropy;   // of the first lobe, whatever the medium (PHASE_HG_DRAINE)
-    uint unused;
+    float grid_piece;           // length of the pieces of grids, voxels or pixels
     mat4 froxel_begins;         // FROXEL_TABLE: view depth (m) where each of 16 equal shares of the slices begins
     mat4 froxel_lengths;        // and their lengths (m); entry i is [i / 4][i % 4]
     mat4 world_to_sun_volume;   // world to texture xyz of the sun volume, see light_transmittance.glsl

@@ -216,6 +216,13 @@ TEST_F(VolumetricsGridLight, TheSunIsDimmedByTheVoxelsOnItsWay) {
     }
 }
 
+TEST_F(VolumetricsGridLight, AFinerVolumeIsNearerToTheVoxels) {
+    expect_sun(0.02);
+    settings.light_volumes.grid_detail = 2;
+    expect_sun(0.006);
+    EXPECT_EQ(probe.skipped(sun_pass), "");
+}
+
 TEST_F(VolumetricsGridLight, WindMakesNothingAnewATurnDoes) {
     expect_sun(0.02);
     EXPECT_EQ(probe.skipped(sun_pass), "");
@@ -251,6 +258,11 @@ TEST_F(VolumetricsGridLight, ReadsAreCountedApart) {
     EXPECT_EQ(count(lit, gl::Work::grid_light_reads), 2 * pieces + pixels);
     EXPECT_EQ(count(lit, gl::Work::medium_samples), 2 * pieces);
     EXPECT_GT(count(lit, gl::Work::grid_page_reads), pieces);
+    settings.march.grid_piece = 0.5F;
+    const std::uint64_t halves = count(host.render(settings).work.at("volumetrics/march"), gl::Work::grid_reads);
+    EXPECT_GE(halves, 2 * pieces - pixels);
+    EXPECT_LE(halves, 2 * pieces);
+    settings.march.grid_piece = 1;
     host.has_sun = false;
     const gl::WorkCounts dark = host.render(settings).work.at("volumetrics/march");
     EXPECT_EQ(count(dark, gl::Work::grid_light_reads), 0U);

@@ -36,6 +36,7 @@ struct MarchSettings {
     Stepping stepping = Stepping::exponential;
     float stepping_strength = 1.0f;  ///< 0.01 … 10: logarithm of the last segment's length over the first's
     float max_distance = 256;        ///< m, 1 … 100000; behind it global media go on in closed form
+    float grid_piece = 1;  ///< 0.25 … 4 voxels, or pixels: what light and density of a grid are told apart by
 };
 struct LightSettings {
     LampIntegration lamp_integration = LampIntegration::segment;
@@ -88,10 +89,11 @@ struct FroxelSettings {
 };
 /// What local media leave of light.
 struct LightVolumeSettings {
-    int sun_size = 128;    ///< 8 … 512 texels across
-    int grid_size = 256;   ///< 16 … 512 texels across, for each density grid
-    int lamp_size = 24;    ///< 4 … 64 directions across, and distances
-    int lamp_count = 256;  ///< 1 … 1024
+    int sun_size = 128;     ///< 8 … 512 texels across
+    int grid_size = 256;    ///< 16 … 512 texels across, for each density grid
+    float grid_detail = 1;  ///< 0.25 … 4 texels a voxel along the light, twice as many across it
+    int lamp_size = 24;     ///< 4 … 64 directions across, and distances
+    int lamp_count = 256;   ///< 1 … 1024
 };
 struct BillboardSettings {
     int layers = 24, local_layers = 16;  ///< 1 … 256 of global media; 1 … 64 of each local medium

@@ -41,6 +41,12 @@ SettingsTable& growing_settings_table() {
                    "lamps.",
                    "m"},
                   1, 100000, Scale::logarithmic)
+            .real(in(&S::march, &MarchSettings::grid_piece),
+                  {"grid_piece", "Grid piece",
+                   "Length of the pieces in which a ray tells density and light of a density grid apart, in "
+                   "voxels, or in "
+                   "pixels' widths where those are more; they grow as what is left of the light falls."},
+                  0.25, 4, Scale::logarithmic)
             .choice(in(&S::light, &LightSettings::lamp_integration),
                     {"lamp_integration", "Lamp integration",
                      "Light of lamps at one point of each segment; or over the segment, with the closed form of "
@@ -310,6 +316,11 @@ SettingsTable& growing_settings_table() {
                  "Most texels across the volume that holds what a density grid leaves of the sun's light, which "
                  "is else as fine as the grid's voxels; made anew only when grid or sun turn."},
                 16, 512, Effect::resource, Scale::logarithmic)
+            .real(in(&S::light_volumes, &LightVolumeSettings::grid_detail),
+                  {"grid_volume_detail", "Grid volume detail",
+                   "Texels of that volume for each voxel along the light, and twice as many across it, as far as "
+                   "grid_volume_size lets them; memory and the time to make it grow with the cube."},
+                  0.25, 4, Scale::logarithmic)
             .integer(in(&S::light_volumes, &LightVolumeSettings::lamp_size),
                      {"lamp_volume_size", "Lamp volume size",
                       "Directions across, and distances, of the volume that holds what local media leave of the "

@@ -249,6 +249,7 @@ FrameMedia gather_media(const Inputs& inputs, const Settings& settings) {
     media.data.noise_side = static_cast<unsigned>(noise_side(settings));
     media.data.noise = noise_uniform(settings, inputs.frame_index);
     set_phase(settings.light, media.data);
+    media.data.grid_piece = settings.march.grid_piece;
     media.data.scattering_orders = static_cast<unsigned>(settings.light.scattering_orders);
     media.data.light_transmittance = settings.light.transmittance ? 1U : 0U;
     media.data.has_ambient = inputs.has_ambient ? 1U : 0U;
