@@ -27,7 +27,7 @@ std::size_t slot_stride() {
 
 const char* to_string(Work work) {
     constexpr const char* names[] = {"medium_samples", "shadow_lookups", "light_evaluations", "texture_fetches",
-                                     "tree_nodes"};
+                                     "tree_nodes",     "grid_reads",     "grid_light_reads",  "grid_page_reads"};
     static_assert(std::size(names) == kinds);
     TYNDALL_CHECK_LT(static_cast<std::size_t>(work), kinds);
     return names[static_cast<std::size_t>(work)];

@@ -12,7 +12,17 @@ namespace tyndall::gl {
 
 /// What instrumented shaders count, exactly and independently of the machine. Order matches
 /// shaders/lib/work.glsl.
-enum class Work { medium_samples, shadow_lookups, light_evaluations, texture_fetches, tree_nodes, count };
+enum class Work {
+    medium_samples,
+    shadow_lookups,
+    light_evaluations,
+    texture_fetches,  ///< but those of density grids
+    tree_nodes,
+    grid_reads,        ///< values of density grids
+    grid_light_reads,  ///< what is stored of what density grids leave of light
+    grid_page_reads,   ///< words of their page table
+    count
+};
 using WorkCounts = std::array<std::uint64_t, static_cast<int>(Work::count)>;
 [[nodiscard]] const char* to_string(Work work);
 

@@ -12,6 +12,7 @@ const int PHASE_HENYEY_GREENSTEIN = 1;
 const int PHASE_SCHLICK = 2;
 const int PHASE_CORNETTE_SHANKS = 3;
 const int PHASE_DOUBLE_HENYEY_GREENSTEIN = 4;
+const int PHASE_HG_DRAINE = 5;
 
 // |g| above this is taken as this: at 1 the lobes become a delta.
 const float PHASE_MAX_ANISOTROPY = 0.999f;
@@ -54,12 +55,27 @@ float phase_cornette_shanks(float g, float cos_theta) {
     return 1.5f * (1.0f + cos_theta * cos_theta) / (2.0f + a * a) * phase_henyey_greenstein(g, cos_theta);
 }
 
-// Two Henyey-Greenstein lobes (Irvine 1965, Astrophysical Journal 142, 1563): the share back_weight, 0..1, of the light
-// goes into the lobe of back_g, which is below 0 for the backward peak of hazes and clouds. The mean cosine is
-// g (1 - back_weight) + back_g back_weight; weights 0 and 1 are the lobes alone.
-float phase_double_henyey_greenstein(float g, float back_g, float back_weight, float cos_theta) {
-    return (1.0f - back_weight) * phase_henyey_greenstein(g, cos_theta) +
-           back_weight * phase_henyey_greenstein(back_g, cos_theta);
+// Draine 2003 (Astrophysical Journal 598, 1017): Henyey-Greenstein times (1 + alpha cos_theta^2), normalised by that factor's mean
+// 1 + alpha (1 + 2 g^2) / 3. alpha = 0 is Henyey-Greenstein, g = 0 and alpha = 1 Rayleigh. Its mean cosine is
+// g (1 + alpha (3 + 2 g^2) / 5) / (1 + alpha (1 + 2 g^2) / 3).
+float phase_draine(float g, float alpha, float cos_theta) {
+    return (1.0f + alpha * cos_theta * cos_theta) / (1.0f + alpha * (1.0f + 2.0f * g * g) / 3.0f) *
+           phase_henyey_greenstein(g, cos_theta);
+}
+
+// A lobe of Henyey-Greenstein, and the share second_weight, 0..1, of the light in one of Draine. With second_alpha = 0 and
+// second_g < 0 the double Henyey-Greenstein (Irvine 1965, Astrophysical Journal 142, 1563) with the backward peak of hazes
+// and clouds. The mean cosine is that of the lobes, by their shares; weights 0 and 1 are the lobes alone.
+float phase_two_lobes(float g, float second_g, float second_alpha, float second_weight, float cos_theta) {
+    return (1.0f - second_weight) * phase_henyey_greenstein(g, cos_theta) +
+           second_weight * phase_draine(second_g, second_alpha, cos_theta);
+}
+
+// Those two lobes fitted to water droplets in visible light, whose diameter is 5..50 um (Jendersie and d'Eon 2023, "An Approximate
+// Mie Scattering Function for Fog and Cloud Rendering", equations 4 to 7): g, second_g, second_alpha, second_weight.
+vec4 phase_of_droplets(float diameter) {
+    return vec4(exp(-0.0990567f / (diameter - 1.67154f)), exp(-2.20679f / (diameter + 3.91029f) - 0.428934f),
+                exp(3.62489f - 8.29288f / (diameter + 5.52825f)), exp(-0.599085f / (diameter - 0.641583f) - 0.665888f));
 }
 
 // Of those with one lobe.
@@ -77,9 +93,9 @@ float phase(int kind, float g, float cos_theta) {
 }
 
 // Of all.
-float phase(int kind, float g, float back_g, float back_weight, float cos_theta) {
-    if (kind == PHASE_DOUBLE_HENYEY_GREENSTEIN) {
-        return phase_double_henyey_greenstein(g, back_g, back_weight, cos_theta);
+float phase(int kind, float g, float second_g, float second_alpha, float second_weight, float cos_theta) {
+    if (kind == PHASE_DOUBLE_HENYEY_GREENSTEIN || kind == PHASE_HG_DRAINE) {
+        return phase_two_lobes(g, second_g, second_alpha, second_weight, cos_theta);
     }
     return phase(kind, g, cos_theta);
 }

@@ -12,7 +12,10 @@
 #define WORK_LIGHT_EVALUATIONS 2u
 #define WORK_TEXTURE_FETCHES 3u
 #define WORK_TREE_NODES 4u
-#define WORK_KINDS 5u
+#define WORK_GRID_READS 5u        // values of density grids, in any level
+#define WORK_GRID_LIGHT_READS 6u  // what is stored of what density grids leave of light
+#define WORK_GRID_PAGE_READS 7u   // words of their page table
+#define WORK_KINDS 8u
 
 #ifndef COUNT_WORK
 #define COUNT_WORK 0
@@ -23,7 +26,7 @@ struct WorkCounter {
     uint low, high;
 };
 layout(std430, binding = BINDING_WORK) buffer WorkBuffer { WorkCounter work_total_[WORK_KINDS]; };
-uint work_[WORK_KINDS] = uint[WORK_KINDS](0u, 0u, 0u, 0u, 0u);
+uint work_[WORK_KINDS] = uint[WORK_KINDS](0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u);
 
 void count_work(uint kind, uint n) { work_[kind] += n; }
 

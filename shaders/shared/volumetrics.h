@@ -98,8 +98,8 @@ struct VolumetricsData {
     float first_step;           // / length of the ray
     float step_growth;          // each step / the one before
     uint coloured_froxels;      // 1: froxels have an optical depth by channel
-    float back_anisotropy;      // of the back lobe (PHASE_DOUBLE_HENYEY_GREENSTEIN)
-    float back_weight;
+    float second_anisotropy;    // of the second lobe (PHASE_DOUBLE_HENYEY_GREENSTEIN, PHASE_HG_DRAINE)
+    float second_weight;
     uint local_emission;        // 1: some local medium emits
     uint fog_mode;              // FOG_*
     float radial_samples;       // to the light
@@ -112,9 +112,13 @@ struct VolumetricsData {
     uint loop_rounds;           // of all loops of a shader, after which the driver ends them
     uint grid_suns;             // of grid_sun
     uint scattering_orders;     // of sunlight in density grids
+    float second_alpha;         // of the second lobe
+    float droplet_anisotropy;   // of the first lobe, whatever the medium (PHASE_HG_DRAINE)
+    float grid_piece;           // length of the pieces of grids, voxels or pixels
     uint few_lamp_count;
     float lamp_core;            // of the many lamps: radius of the core / view depth, see lamp_cores.frag
     uint unused_1;
+    uint unused_2;
     uvec4 few_lamps[MAX_FEW_LAMPS / 4];  // technique auto: lamps that pixels take one by one, the others are in froxels; ~0: none
     mat4 froxel_begins;         // FROXEL_TABLE: view depth (m) where each of 16 equal shares of the slices begins
     mat4 froxel_lengths;        // and their lengths (m); entry i is [i / 4][i % 4]

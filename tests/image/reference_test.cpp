@@ -139,7 +139,7 @@ TEST_F(ReferenceCommand, IsTheTechniqueReferenceInAirAndHaze) {
     write_scene(folder_ / "scene.gltf", {.sun = true, .media = R"([
         {"shape":"height","scattering":[0.003,0.008,0.02],"phase":"rayleigh","base":0,"falloff":15},
         {"shape":"global","scattering":[0.004,0.004,0.004],"absorption":[0.002,0.001,0],"anisotropy":0.6}])"});
-    for (const char* phase : {"cornette_shanks", "double_henyey_greenstein"}) {
+    for (const char* phase : {"cornette_shanks", "double_henyey_greenstein", "hg_draine"}) {
         const std::vector<std::string> options{"--layer",     "scattering",
                                                "--set",       "shadows=false",
                                                "--technique", "reference",

@@ -55,6 +55,9 @@ void moderate_structure(Structure& s, int turn, Random& random) {
     v.light.lamp_integration = volumetrics::LampIntegration::segment;
     if (s.options.volumetrics.technique == "particles")
         v.light.phase = volumetrics::PhaseFunction::henyey_greenstein;
+    // Its peak is narrower than what lamps' nodes resolve.
+    if (s.lamps && v.light.phase == volumetrics::PhaseFunction::hg_draine)
+        v.light.phase = volumetrics::PhaseFunction::cornette_shanks;
 }
 
 void moderate_visit(Structure& s, int visit) {

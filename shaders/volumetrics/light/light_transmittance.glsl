@@ -39,6 +39,9 @@ struct LampVolume {
 };
 #if LIGHT_VOLUMES > 1
 layout(binding = UNIT_GRID_SUN) uniform sampler3D grid_sun_volume;
+#define LAMP_VOLUME_READS WORK_GRID_LIGHT_READS
+#else
+#define LAMP_VOLUME_READS WORK_TEXTURE_FETCHES
 #endif
 layout(std430, binding = BINDING_LAMP_VOLUMES) readonly buffer LampVolumeBuffer { LampVolume lamp_volume[]; };  // by light index
 #endif
@@ -51,7 +54,7 @@ vec3 grid_sun_optical_depth(vec3 point) {
     for (uint i = 0u; i < volumetrics.grid_suns; ++i) {
         vec3 place = (volumetrics.grid_sun[i].world_to_volume * vec4(point, 1.0)).xyz;
         place = clamp(place, volumetrics.grid_sun[i].low.xyz, volumetrics.grid_sun[i].high.xyz);
-        count_work(WORK_TEXTURE_FETCHES, 1u);
+        count_work(WORK_GRID_LIGHT_READS, 1u);
         depth += volumetrics.grid_sun[i].sigma_t.rgb * textureLod(grid_sun_volume, place, 0.0).r;
     }
 #endif
@@ -82,7 +85,7 @@ vec3 local_lamp_optical_depth(uint index, vec3 from_lamp, float path_length) {
     vec2 texel = tile.xy + clamp(place * sizes.x, -0.5, sizes.x + 0.5);
     float share = min((path_length - tile.z) * tile.w, 1.0);
     float w = (share * (sizes.y - 1.0) + 0.5) / sizes.y;
-    count_work(WORK_TEXTURE_FETCHES, 1u);
+    count_work(LAMP_VOLUME_READS, 1u);
     return textureLod(lamp_volumes, vec3(texel * sizes.zw, w), 0.0).rgb;
 #else
     return vec3(0.0);

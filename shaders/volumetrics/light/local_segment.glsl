@@ -23,7 +23,7 @@ vec3 later_orders(Ray ray, Medium m, Extinction half_depth, Extinction front, Ex
     for (uint n = 1u; n < volumetrics.scattering_orders; ++n) {
         Extinction path = sun_between(half_depth, part * front, part * middle, lengths.x).effective_length +
                           exp(-half_depth) * sun_between(half_depth, part * middle, part * back, lengths.y).effective_length;
-        sum += part * particle_phase(part * m.anisotropy, -dot(sun_direction(), ray.direction)) * path;
+        sum += part * particle_phase(m.anisotropy, part, -dot(sun_direction(), ray.direction)) * path;
         part *= 0.5;
     }
     return sun_illuminance() * grid_sigma_s * sum;

@@ -13,6 +13,7 @@ layout(binding = UNIT_GRID_PAGES) uniform usampler2D grid_pages;
 layout(binding = UNIT_GRID_BRICKS) uniform sampler3D grid_bricks;
 
 uint grid_word(uint index) {
+    count_work(WORK_GRID_PAGE_READS, 1u);
     return texelFetch(grid_pages, ivec2(index & ((1u << GRID_ROW_BITS) - 1u), index >> GRID_ROW_BITS), 0).r;
 }
 
@@ -47,7 +48,7 @@ float grid_value(GridLevel level, vec3 voxel) {
     ivec3 brick = ivec3(floor(q * (1.0 / float(GRID_SIDE))));
     uint page = grid_page(level, brick);
     if (page == 0u) return 0.0;
-    count_work(WORK_TEXTURE_FETCHES, 1u);
+    count_work(WORK_GRID_READS, 1u);
     vec3 corner = vec3((uvec3(page) >> uvec3(0u, 10u, 20u)) & 1023u) * float(GRID_SIDE + 1);
     return textureLod(grid_bricks, (corner + q - vec3(brick * GRID_SIDE) + 0.5) / vec3(textureSize(grid_bricks, 0)), 0.0).r;
 }

@@ -45,15 +45,15 @@ float noise_over(Ray ray, float begin, float end) {
 }
 
 #if GRIDS
-const float GRID_PIECES = 128.0;  // of a chord at most
+const float GRID_PIECES = 128.0;  // of a chord at most, where pieces are as long as voxels
 const float GRID_GROWTH = 8.0;
 
-// As long as what a pixel sees of a grid is wide, and a voxel or more.
+// As long as what a pixel sees of a grid is wide, and a voxel or more; times the setting grid_piece.
 float grid_piece(LocalMedium medium, Ray ray, vec2 span) {
     vec3 along = to_voxel(medium, vec4(direction_to_shape(medium, ray.direction), 0.0));
     float path_length = span.y - span.x;
     float finest = max(1.0 / length(along), width_at(ray, span.x, volumetrics.target.x));
-    return path_length / clamp(ceil(path_length / finest), 1.0, GRID_PIECES);
+    return path_length / clamp(ceil(path_length / (volumetrics.grid_piece * finest)), 1.0, GRID_PIECES / volumetrics.grid_piece);
 }
 
 float grid_growth(float transmittance) { return clamp(inversesqrt(max(transmittance, 1.0e-6)), 1.0, GRID_GROWTH); }

@@ -33,6 +33,7 @@
 #include "shaders/volumetrics/light/local_segment.glsl"
 #endif
 
+layout(early_fragment_tests) in;  // see modules/volumetrics/src/reconstruction/refine.cpp
 layout(binding = 0) uniform sampler2D depth_texture;
 layout(location = 0) flat in vec3 ambient;
 layout(location = 0) out vec4 out_scattering;

@@ -23,6 +23,13 @@ double phase_rayleigh(double c) {
 double phase_cornette_shanks(double g, double c) {
     return 3 / (8 * pi) * (1 - g * g) * (1 + c * c) / ((2 + g * g) * std::pow(1 + g * g - 2 * g * c, 1.5));
 }
+/// Of droplets 20 um wide.
+double phase_droplets(double c) {
+    const double g = std::exp(-2.20679 / 23.91029 - 0.428934), alpha = std::exp(3.62489 - 8.29288 / 25.52825);
+    const double second = std::exp(-0.599085 / 19.358417 - 0.665888);
+    return (1 - second) * phase_hg(std::exp(-0.0990567 / 18.32846), c) +
+           second * phase_hg(g, c) * (1 + alpha * c * c) / (1 + alpha * (1 + 2 * g * g) / 3);
+}
 
 /// Scattering of air at sea level, 1/m.
 const glm::vec3 clear_air(5.8e-6F, 13.5e-6F, 33.1e-6F);
@@ -183,6 +190,9 @@ TEST_P(VolumetricsAir, PhaseFunctionsOfParticles) {
             settings.light.back_weight = 0.25F;
             expect_close(radiance(settings), glm::dvec3(7.5 * phase_hg(g, c) + 2.5 * phase_hg(-0.3, c)), 1e-3,
                          "two lobes");
+            settings.light.phase = PhaseFunction::hg_draine;
+            settings.light.droplet_diameter = 20;
+            expect_close(radiance(settings), glm::dvec3(10 * phase_droplets(c)), 1e-3, "droplets");
         }
     }
 }

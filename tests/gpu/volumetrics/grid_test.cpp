@@ -216,6 +216,13 @@ TEST_F(VolumetricsGridLight, TheSunIsDimmedByTheVoxelsOnItsWay) {
     }
 }
 
+TEST_F(VolumetricsGridLight, AFinerVolumeIsNearerToTheVoxels) {
+    expect_sun(0.02);
+    settings.light_volumes.grid_detail = 2;
+    expect_sun(0.006);
+    EXPECT_EQ(probe.skipped(sun_pass), "");
+}
+
 TEST_F(VolumetricsGridLight, WindMakesNothingAnewATurnDoes) {
     expect_sun(0.02);
     EXPECT_EQ(probe.skipped(sun_pass), "");
@@ -225,6 +232,83 @@ TEST_F(VolumetricsGridLight, WindMakesNothingAnewATurnDoes) {
     place({1.3, 0.2, -10}, 0.9);
     expect_sun(0.02);
     EXPECT_EQ(probe.skipped(sun_pass), "");
+}
+
+// Thin voxels fill the picture: a piece a voxel, with one value each, and the sun at two places of it; and one
+// before all.
+TEST_F(VolumetricsGridLight, ReadsAreCountedApart) {
+    Voxels slab;
+    for (int z = 0; z < 6; ++z)
+        for (int y = 0; y < 6; ++y)
+            for (int x = 0; x < 6; ++x) slab.set({x, y, z}, 1e-3F);
+    grid = module_grid(slab);
+    set_grid(medium, grid, placed({-10, -10, -14}, {4, 4, 1}, 0));
+    host.local = {medium};
+    host.size = {8, 8};
+    host.vertical_fov = 0.02F;
+    host.count_work = true;
+    settings.march.steps = 1;
+    const auto count = [](const gl::WorkCounts& work, gl::Work kind) {
+        return work[static_cast<std::size_t>(kind)];
+    };
+    const gl::WorkCounts lit = host.render(settings).work.at("volumetrics/march");
+    const std::uint64_t pixels = 64, pieces = count(lit, gl::Work::grid_reads);
+    EXPECT_GE(pieces, 6 * pixels);
+    EXPECT_LE(pieces, 8 * pixels);
+    EXPECT_EQ(count(lit, gl::Work::grid_light_reads), 2 * pieces + pixels);
+    EXPECT_EQ(count(lit, gl::Work::medium_samples), 2 * pieces);
+    EXPECT_GT(count(lit, gl::Work::grid_page_reads), pieces);
+    settings.march.grid_piece = 0.5F;
+    const std::uint64_t halves = count(host.render(settings).work.at("volumetrics/march"), gl::Work::grid_reads);
+    EXPECT_GE(halves, 2 * pieces - pixels);
+    EXPECT_LE(halves, 2 * pieces);
+    settings.march.grid_piece = 1;
+    host.has_sun = false;
+    const gl::WorkCounts dark = host.render(settings).work.at("volumetrics/march");
+    EXPECT_EQ(count(dark, gl::Work::grid_light_reads), 0U);
+    EXPECT_EQ(count(dark, gl::Work::grid_reads), pieces);
+}
+
+// A pixel sees about a voxel, so that a lower resolution leaves out detail; and what is beside the cloud is not
+// drawn again.
+TEST_F(VolumetricsGridLight, LowResolutionDrawsAgainWhatItCannotTell) {
+    using volumetrics::Filter, volumetrics::Resolution;
+    host.size = {48, 36};
+    host.vertical_fov = 0.9F;
+    host.view_depth = [](int, int) { return sky; };
+    host.count_work = true;
+    const auto render = [&](Resolution resolution, float tolerance) {
+        settings.resolution.size = resolution;
+        settings.resolution.tolerance = tolerance;
+        return host.render(settings);
+    };
+    const auto reads = [](const Frame& frame, const std::string& pass) {
+        return frame.work.at(pass)[static_cast<std::size_t>(gl::Work::grid_reads)];
+    };
+    for (const auto& [filter, resolution] : {std::pair{Filter::none, Resolution::half},
+                                             {Filter::none, Resolution::quarter},
+                                             {Filter::gaussian15, Resolution::half}}) {
+        settings.filter.kernel = filter;
+        const Frame full = render(Resolution::full, 0.1F), refined = render(resolution, 0.1F),
+                    coarse = render(resolution, 1);
+        const auto error = [&](const Frame& frame) {
+            double squares = 0, sum = 0;
+            for (int y = 0; y < host.size.y; ++y)
+                for (int x = 0; x < host.size.x; ++x) {
+                    const double expected = full.scattering.at(x, y)[1];
+                    squares += std::pow(double(frame.scattering.at(x, y)[1]) - expected, 2);
+                    sum += expected * expected;
+                }
+            return std::sqrt(squares / sum);
+        };
+        std::printf("resolution 1/%d: error %.4f, %.4f where nothing is drawn again\n", 1 << int(resolution),
+                    error(refined), error(coarse));
+        EXPECT_LT(error(refined), 0.05);
+        EXPECT_GT(error(coarse), 2 * error(refined));
+        EXPECT_EQ(coarse.skipped.at("volumetrics/refine"), "resolution_tolerance is 1");
+        EXPECT_EQ(full.skipped.at("volumetrics/refine"), "resolution is full");
+        EXPECT_LT(reads(refined, "volumetrics/refine"), reads(full, "volumetrics/march"));
+    }
 }
 
 TEST_F(VolumetricsGridLight, SeveralGridsAreTheProductOfEach) {

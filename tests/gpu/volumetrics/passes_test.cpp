@@ -40,6 +40,7 @@ TEST_F(VolumetricsPasses, WithoutMediumNothingIsAddedOrHeld) {
                                          Key("volumetrics/march"), Key("volumetrics/filter_horizontal"),
                                          Key("volumetrics/filter_vertical"), Key("volumetrics/relight"),
                                          Key("volumetrics/upsample"), Key("volumetrics/temporal"),
+                                         Key("volumetrics/refine_mask"), Key("volumetrics/refine"),
                                          Key("volumetrics/composite")));
         EXPECT_EQ(frame.persistent_bytes, 0U);
     }

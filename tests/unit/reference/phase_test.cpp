@@ -42,6 +42,19 @@ TEST(ReferencePhase, MeanCosineOfCornetteShanks) {
         EXPECT_NEAR(over_sphere(&cornette_shanks, g, 1), 3 * g * (4 + g * g) / (5 * (2 + g * g)), 1e-8);
 }
 
+TEST(ReferencePhase, DropletsIntegrateToOne) {
+    const Phase phase = [](double diameter, double cosine) { return droplets(diameter, cosine); };
+    for (const double diameter : {5.0, 10.0, 20.0, 50.0}) {
+        EXPECT_NEAR(over_sphere(phase, diameter, 0), 1, 1e-8) << diameter;
+        for (const double cosine : {-1.0, -0.5, 0.0, 0.5, 0.99})
+            EXPECT_LT(droplets(diameter, cosine), droplets_peak(diameter));
+    }
+    for (const double cosine : {-1.0, 0.2, 1.0}) {
+        EXPECT_DOUBLE_EQ(draine(0.4, 0, cosine), henyey_greenstein(0.4, cosine));
+        EXPECT_DOUBLE_EQ(draine(0, 1, cosine), rayleigh(cosine));
+    }
+}
+
 TEST(ReferencePhase, RayleighIsCornetteShanksWithoutAnisotropy) {
     for (const double cosine : {-1.0, -0.3, 0.0, 0.8, 1.0}) {
         EXPECT_DOUBLE_EQ(rayleigh(cosine), 3 / (16 * pi) * (1 + cosine * cosine));
@@ -60,7 +73,9 @@ TEST(ReferencePhase, OfTheSettings) {
             const ParticlePhase two{Kind::double_henyey_greenstein, -0.3, 0.25};
             EXPECT_DOUBLE_EQ(two(g, cosine),
                              0.75 * henyey_greenstein(g, cosine) + 0.25 * henyey_greenstein(-0.3, cosine));
-            for (const ParticlePhase& p : {ParticlePhase{}, {Kind::schlick}, {Kind::cornette_shanks}, two})
+            const ParticlePhase drops{.kind = Kind::hg_draine, .droplet_diameter = 20};
+            EXPECT_EQ(drops(g, cosine), droplets(20, cosine));
+            for (const ParticlePhase& p : {ParticlePhase{}, {Kind::schlick}, {Kind::cornette_shanks}, two, drops})
                 EXPECT_LE(p(g, cosine), p.peak(g) * (1 + 1e-12));
         }
 }

@@ -137,7 +137,8 @@ TEST_F(VolumetricsSettings, NamesAreInEnumOrder) {
                  {{"henyey_greenstein", PhaseFunction::henyey_greenstein},
                   {"schlick", PhaseFunction::schlick},
                   {"cornette_shanks", PhaseFunction::cornette_shanks},
-                  {"double_henyey_greenstein", PhaseFunction::double_henyey_greenstein}});
+                  {"double_henyey_greenstein", PhaseFunction::double_henyey_greenstein},
+                  {"hg_draine", PhaseFunction::hg_draine}});
     expect_names("froxel_distribution", s.froxels.distribution,
                  {{"linear", DepthDistribution::linear},
                   {"exponential", DepthDistribution::exponential},

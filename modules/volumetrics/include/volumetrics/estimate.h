@@ -1,10 +1,14 @@
 #pragma once
 
+#include <functional>
+#include <string>
 #include <vector>
 
 #include "volumetrics/outputs.h"
 
 namespace tyndall::volumetrics {
+
+struct Pass;
 
 /// How the samples that a texture was made of are placed, and so what noise it has: none, for it is a closed form
 /// or lies on a grid; noise from frame to frame, which a mean over frames takes away; or noise from pixel to pixel
@@ -28,6 +32,9 @@ struct Estimate {
     std::vector<Part> parts;              ///< at most most_parts
     Fog fog;                              ///< for transparents, where the technique has it
     TextureRef samples = {};              ///< Outputs::samples
+    /// A pass of that name that draws these textures at the host's size, to that depth: scattering, transmittance,
+    /// then of each part its light and its share; without targets yet. Empty: there is none.
+    std::function<Pass(const std::string& name, TextureRef depth)> redraw;
     explicit operator bool() const { return static_cast<bool>(scattering); }
 };
 

@@ -37,7 +37,9 @@ struct Pass {
         {};                                ///< it draws to, in order; each becomes its new version; empty: left out
     std::vector<Image> images = {};        ///< on image units 0, 1, 2 …, likewise
     std::vector<BufferRef*> written = {};  ///< storage buffers that it writes, likewise
-    TextureRef depth_test = {};            ///< the host's depth buffer, which hides what is drawn
+    TextureRef depth_test = {};            ///< a depth buffer, which hides what is drawn
+    TextureRef* depth_target = nullptr;    ///< a depth buffer that it draws to
+    bool host_size = false;                ///< it draws at the host's size, whatever Frame::size is
     bool lit = false;                      ///< reads shaders/interface/{lights,shadows}.glsl
     bool light_volumes = false;            ///< reads what local media leave of light on its way
     bool local_media = false;              ///< reads shaders/volumetrics/media/{local,ray}_media.glsl

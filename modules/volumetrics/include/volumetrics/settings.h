@@ -22,7 +22,7 @@ enum class DepthChoice { min, max, checkerboard };
 enum class Upsample { nearest, bilinear, bilateral, nearest_depth };
 enum class Temporal { off, blend, ema, acceptance, accumulate };
 enum class TemporalPlace { before, after };
-enum class PhaseFunction { henyey_greenstein, schlick, cornette_shanks, double_henyey_greenstein };
+enum class PhaseFunction { henyey_greenstein, schlick, cornette_shanks, double_henyey_greenstein, hg_draine };
 enum class DepthDistribution { linear, exponential, logarithmic, curve, automatic };
 enum class FogMode { linear, squared, exponential, height };
 enum class RadialOcclusion { coverage, intervals };
@@ -36,6 +36,7 @@ struct MarchSettings {
     Stepping stepping = Stepping::exponential;
     float stepping_strength = 1.0f;  ///< 0.01 … 10: logarithm of the last segment's length over the first's
     float max_distance = 256;        ///< m, 1 … 100000; behind it global media go on in closed form
+    float grid_piece = 1;  ///< 0.25 … 4 voxels, or pixels: what light and density of a grid are told apart by
 };
 struct LightSettings {
     LampIntegration lamp_integration = LampIntegration::segment;
@@ -43,6 +44,7 @@ struct LightSettings {
     PhaseFunction phase = PhaseFunction::henyey_greenstein;
     float back_anisotropy = -0.5f;  ///< -0.999 … 0, of double_henyey_greenstein
     float back_weight = 0.2f;       ///< 0 … 1
+    float droplet_diameter = 10;    ///< um, 5 … 50, of hg_draine
     int scattering_orders = 1;      ///< 1 … 8, of sunlight in density grids
 };
 /// Of techniques that sample.
@@ -65,6 +67,7 @@ struct ResolutionSettings {
     Resolution size = Resolution::full;
     DepthChoice depth = DepthChoice::checkerboard;
     Upsample upsample = Upsample::bilateral;
+    float tolerance = 0.1f;  ///< 0.01 … 1: differences of low pixels beyond it are drawn anew, of density grids
 };
 struct TemporalSettings {
     Temporal mode = Temporal::accumulate;
@@ -86,10 +89,11 @@ struct FroxelSettings {
 };
 /// What local media leave of light.
 struct LightVolumeSettings {
-    int sun_size = 128;    ///< 8 … 512 texels across
-    int grid_size = 256;   ///< 16 … 512 texels across, for each density grid
-    int lamp_size = 24;    ///< 4 … 64 directions across, and distances
-    int lamp_count = 256;  ///< 1 … 1024
+    int sun_size = 128;     ///< 8 … 512 texels across
+    int grid_size = 256;    ///< 16 … 512 texels across, for each density grid
+    float grid_detail = 1;  ///< 0.25 … 4 texels a voxel along the light, twice as many across it
+    int lamp_size = 24;     ///< 4 … 64 directions across, and distances
+    int lamp_count = 256;   ///< 1 … 1024
 };
 struct BillboardSettings {
     int layers = 24, local_layers = 16;  ///< 1 … 256 of global media; 1 … 64 of each local medium

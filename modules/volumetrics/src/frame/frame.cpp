@@ -24,7 +24,7 @@ struct Running {
     std::vector<Pass::Source> sources;
     std::vector<TextureRef> images;
     Fog fog;
-    bool draws, light_volumes, local_media;
+    bool draws, host_size, light_volumes, local_media;
     gl::DrawState state;
     std::function<void()> bind_lighting;
     std::function<void(const PassContext&, const gl::Program&)> set;
@@ -40,7 +40,8 @@ struct Running {
             resources.grids.bind();
         }
         resources.noise.bind();
-        resources.uniforms.bind(GL_UNIFORM_BUFFER, BINDING_VOLUMETRICS);
+        const bool other = host_size && resources.host_uniforms;
+        (other ? resources.host_uniforms : resources.uniforms).bind(GL_UNIFORM_BUFFER, BINDING_VOLUMETRICS);
         if (fog) bind_fog_textures(context, fog);
         const BoundSources bound(context, sources, resources);
         for (GLuint unit = 0; unit < images.size(); ++unit)
@@ -127,7 +128,8 @@ void Frame::add(const Pass& pass) {
                     .sources = pass.sources,
                     .images = {},
                     .fog = pass.fog,
-                    .draws = !pass.targets.empty(),
+                    .draws = !pass.targets.empty() || pass.depth_target != nullptr,
+                    .host_size = pass.host_size,
                     .light_volumes = pass.light_volumes,
                     .local_media = pass.local_media,
                     .state = pass.state,
@@ -149,6 +151,7 @@ void Frame::add(const Pass& pass) {
             if (*target) *target = builder.attach_color(*target);
         for (const auto& [texture, read] : pass.images)
             if (*texture) *texture = read ? builder.storage_read_write(*texture) : builder.storage_write(*texture);
+        if (pass.depth_target) *pass.depth_target = builder.attach_depth(*pass.depth_target);
         if (pass.depth_test) builder.attach_depth_read_only(pass.depth_test);
     };
     // A pass that runs finds its textures by index, whatever their version.

@@ -2,6 +2,7 @@
 
 #include "engine/gl/program_limits.h"
 #include "media/froxel_tiles.h"
+#include "reconstruction/reconstruction.h"
 
 namespace tyndall::volumetrics {
 
@@ -12,6 +13,13 @@ void Resources::upload(const Settings& settings, FrameMedia& media) {
         linear = gl::Sampler({}, "volumetrics linear");
     }
     uniforms.assign(std::span<const shared::VolumetricsData>(&media.data, 1), "volumetrics uniforms");
+    if (resolution_factor(settings) > 1 && media.uses_grids) {
+        shared::VolumetricsData host = media.data;
+        host.target = host.viewport;
+        host_uniforms.assign(std::span<const shared::VolumetricsData>(&host, 1), "volumetrics host uniforms");
+    } else {
+        host_uniforms = {};
+    }
     if (media.local.empty()) {
         for (gl::Buffer* buffer : {&local_media, &screen_media, &media_tiles}) *buffer = {};
     } else {
@@ -24,7 +32,7 @@ void Resources::upload(const Settings& settings, FrameMedia& media) {
 }
 
 void Resources::release(const FrameMedia& media) {
-    for (gl::Buffer* buffer : {&uniforms, &local_media, &screen_media, &media_tiles}) *buffer = {};
+    for (gl::Buffer* buffer : {&uniforms, &host_uniforms, &local_media, &screen_media, &media_tiles}) *buffer = {};
     if (media.grids.empty()) {
         grids.release();
         light_volumes.release();
@@ -34,8 +42,8 @@ void Resources::release(const FrameMedia& media) {
 }
 
 std::size_t Resources::bytes() const {
-    return uniforms.size() + local_media.size() + screen_media.size() + media_tiles.size() + grids.bytes() +
-           light_volumes.bytes() + noise.bytes() + temporal.bytes();
+    return uniforms.size() + host_uniforms.size() + local_media.size() + screen_media.size() + media_tiles.size() +
+           grids.bytes() + light_volumes.bytes() + noise.bytes() + temporal.bytes();
 }
 
 }  // namespace tyndall::volumetrics

@@ -17,6 +17,8 @@ namespace tyndall::volumetrics {
 struct Resources {
     gl::Sampler nearest, linear;
     gl::Buffer uniforms, local_media, screen_media, media_tiles;
+    gl::Buffer
+        host_uniforms;  ///< of passes at the host's size, where others have a lower one and grids may be in view
     GridAtlas grids;
     LightVolumes light_volumes;
     NoiseSource noise;

@@ -41,6 +41,12 @@ SettingsTable& growing_settings_table() {
                    "lamps.",
                    "m"},
                   1, 100000, Scale::logarithmic)
+            .real(in(&S::march, &MarchSettings::grid_piece),
+                  {"grid_piece", "Grid piece",
+                   "Length of the pieces in which a ray tells density and light of a density grid apart, in "
+                   "voxels, or in "
+                   "pixels' widths where those are more; they grow as what is left of the light falls."},
+                  0.25, 4, Scale::logarithmic)
             .choice(in(&S::light, &LightSettings::lamp_integration),
                     {"lamp_integration", "Lamp integration",
                      "Light of lamps at one point of each segment; or over the segment, with the closed form of "
@@ -55,9 +61,10 @@ SettingsTable& growing_settings_table() {
             .choice(in(&S::light, &LightSettings::phase),
                     {"phase", "Phase function",
                      "Of all media but air: Henyey-Greenstein; Schlick's approximation of it, which is slightly "
-                     "cheaper; Cornette-Shanks, which becomes Rayleigh's as the anisotropy goes to 0; or a second, "
-                     "backward lobe of Henyey-Greenstein."},
-                    {"henyey_greenstein", "schlick", "cornette_shanks", "double_henyey_greenstein"},
+                     "cheaper; Cornette-Shanks, which becomes Rayleigh's as the anisotropy goes to 0; a second, "
+                     "backward lobe of Henyey-Greenstein; or that of water droplets, Henyey-Greenstein and Draine, "
+                     "whatever the media's anisotropies."},
+                    {"henyey_greenstein", "schlick", "cornette_shanks", "double_henyey_greenstein", "hg_draine"},
                     Effect::uniform)
             .real(in(&S::light, &LightSettings::back_anisotropy),
                   {"phase_back_anisotropy", "Back lobe anisotropy",
@@ -67,6 +74,12 @@ SettingsTable& growing_settings_table() {
                   {"phase_back_weight", "Back lobe weight",
                    "Share of the light that double_henyey_greenstein scatters in its backward lobe."},
                   0, 1)
+            .real(in(&S::light, &LightSettings::droplet_diameter),
+                  {"phase_droplet_diameter", "Droplet diameter",
+                   "Of the phase function hg_draine: about 10 in clouds, 5 to 20 in fog; larger ones scatter "
+                   "farther forward.",
+                   "um"},
+                  5, 50)
             .integer(in(&S::light, &LightSettings::scattering_orders),
                      {"scattering_orders", "Scattering orders",
                       "Of sunlight in density grids: 1 is scattered once, which is what the references have; more "
@@ -147,6 +160,12 @@ SettingsTable& growing_settings_table() {
                      "From lower to full resolution: the nearest pixel; bilinear; bilinear without pixels of other "
                      "depths; or the pixel of the nearest depth, where depths differ."},
                     {"nearest", "bilinear", "bilateral", "nearest_depth"}, Effect::uniform)
+            .real(in(&S::resolution, &ResolutionSettings::tolerance),
+                  {"resolution_tolerance", "Tolerance for grids",
+                   "Where density grids are in view of ray_march or epipolar at a lower resolution: pixels around "
+                   "which light or transmittance bend by more than this part are drawn again at full resolution; "
+                   "1: none are."},
+                  0.01, 1, Scale::logarithmic)
             .choice(in(&S::temporal, &TemporalSettings::mode),
                     {"temporal", "Temporal filter",
                      "Mean over frames: none; of the same pixel, ugly in motion; an exponential mean along "
@@ -297,6 +316,11 @@ SettingsTable& growing_settings_table() {
                  "Most texels across the volume that holds what a density grid leaves of the sun's light, which "
                  "is else as fine as the grid's voxels; made anew only when grid or sun turn."},
                 16, 512, Effect::resource, Scale::logarithmic)
+            .real(in(&S::light_volumes, &LightVolumeSettings::grid_detail),
+                  {"grid_volume_detail", "Grid volume detail",
+                   "Texels of that volume for each voxel along the light, and twice as many across it, as far as "
+                   "grid_volume_size lets them; memory and the time to make it grow with the cube."},
+                  0.25, 4, Scale::logarithmic)
             .integer(in(&S::light_volumes, &LightVolumeSettings::lamp_size),
                      {"lamp_volume_size", "Lamp volume size",
                       "Directions across, and distances, of the volume that holds what local media leave of the "

@@ -10,15 +10,17 @@
 namespace tyndall::volumetrics {
 namespace {
 
-/// Texels of a part: two for each voxel that it spans across the light, one along it, up to a limit.
-glm::ivec3 part_size(const AttenuatingMedium& grid, glm::dvec3 direction, int limit) {
+/// Texels of a part: two for each voxel that it spans across the light, one along it, times the detail, up to a
+/// limit.
+glm::ivec3 part_size(const AttenuatingMedium& grid, glm::dvec3 direction, const LightVolumeSettings& settings) {
     double voxels = 0;  // along an axis, a metre
     for (const glm::vec4 row : {grid.packed.grid_x, grid.packed.grid_y, grid.packed.grid_z})
         voxels = std::max(voxels, double(glm::length(glm::vec3(row))));
     const glm::dmat3 axes = sun_axes(direction);
     const auto spanned = [&](int axis) { return 2 * half_extent_along(grid.medium, axes[axis]) * voxels; };
     const auto texels = [&](double wanted) {
-        return static_cast<int>(std::clamp(std::ceil(wanted), 4.0, double(limit)));
+        return static_cast<int>(
+            std::clamp(std::ceil(settings.grid_detail * wanted), 4.0, double(settings.grid_size)));
     };
     return {texels(2 * spanned(0) + 2), texels(2 * spanned(1) + 2), texels(spanned(2) + 1)};
 }
@@ -43,7 +45,7 @@ void GridSunVolumes::prepare(const Inputs& inputs, const Settings& settings, Fra
     std::vector<Part> parts;
     glm::ivec3 whole(0);
     for (const AttenuatingMedium& grid : grids) {
-        const glm::ivec3 size = part_size(grid, direction, settings.light_volumes.grid_size);
+        const glm::ivec3 size = part_size(grid, direction, settings.light_volumes);
         parts.push_back({grid.medium.grid,
                          glm::mat3(grid.medium.world_to_voxel),
                          grid.medium.nearest,

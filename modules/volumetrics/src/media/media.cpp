@@ -197,6 +197,8 @@ unsigned phase_option(PhaseFunction phase) {
             return glsl::PHASE_CORNETTE_SHANKS;
         case PhaseFunction::double_henyey_greenstein:
             return glsl::PHASE_DOUBLE_HENYEY_GREENSTEIN;
+        case PhaseFunction::hg_draine:
+            return glsl::PHASE_HG_DRAINE;
     }
     return glsl::PHASE_ISOTROPIC;
 }
@@ -213,6 +215,18 @@ void set_few_lamps(const Inputs& inputs, const Settings& settings, FrameMedia& m
                            2 / (inputs.projection[1][1] * static_cast<float>(settings.froxels.y))};
     media.data.lamp_core = 1.5F * std::max(froxel.x, froxel.y);
     media.data.few_lamp_count = static_cast<std::uint32_t>(media.few_lamps.size());
+}
+
+void set_phase(const LightSettings& light, shared::VolumetricsData& data) {
+    data.phase = phase_option(light.phase);
+    data.second_anisotropy = light.back_anisotropy;
+    data.second_weight = light.back_weight;
+    if (light.phase != PhaseFunction::hg_draine) return;
+    const glm::vec4 lobes = glsl::phase_of_droplets(light.droplet_diameter);
+    data.droplet_anisotropy = lobes.x;
+    data.second_anisotropy = lobes.y;
+    data.second_alpha = lobes.z;
+    data.second_weight = lobes.w;
 }
 
 }  // namespace
@@ -263,9 +277,8 @@ FrameMedia gather_media(const Inputs& inputs, const Settings& settings) {
     media.data.steps = static_cast<unsigned>(settings.march.steps);
     media.data.noise_side = static_cast<unsigned>(noise_side(settings));
     media.data.noise = noise_uniform(settings, inputs.frame_index);
-    media.data.phase = phase_option(settings.light.phase);
-    media.data.back_anisotropy = settings.light.back_anisotropy;
-    media.data.back_weight = settings.light.back_weight;
+    set_phase(settings.light, media.data);
+    media.data.grid_piece = settings.march.grid_piece;
     media.data.scattering_orders = static_cast<unsigned>(settings.light.scattering_orders);
     media.data.light_transmittance = settings.light.transmittance ? 1U : 0U;
     media.data.has_ambient = inputs.has_ambient ? 1U : 0U;

@@ -45,9 +45,10 @@ void upsample(Frame& frame, Estimate& estimate) {
 }  // namespace
 
 const std::vector<std::string>& reconstruction_passes() {
-    static const std::vector<std::string> names{"volumetrics/depth_downsample",  "volumetrics/temporal",
-                                                "volumetrics/filter_horizontal", "volumetrics/filter_vertical",
-                                                "volumetrics/upsample",          "volumetrics/relight"};
+    static const std::vector<std::string> names{
+        "volumetrics/depth_downsample", "volumetrics/temporal", "volumetrics/filter_horizontal",
+        "volumetrics/filter_vertical",  "volumetrics/upsample", "volumetrics/refine_mask",
+        "volumetrics/refine",           "volumetrics/relight"};
     return names;
 }
 
@@ -94,7 +95,9 @@ Outputs reconstruct(Frame& frame, Estimate estimate) {
     if (before) mean = add_temporal(frame, sampled);
     const bool narrows = settings.filter.narrows && settings.temporal.mode == Temporal::accumulate;
     filter(frame, estimate, narrows ? mean.frames : TextureRef{});
+    const Estimate low = estimate;
     upsample(frame, estimate);
+    add_refine(frame, low, estimate);
     if (temporal && !before) mean = add_temporal(frame, sampled);
     if (!estimate.parts.empty()) add_relight(frame, estimate);
     outputs.scattering = estimate.scattering;

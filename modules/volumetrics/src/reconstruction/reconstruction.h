@@ -8,9 +8,10 @@
 namespace tyndall::volumetrics {
 
 /// Between samples and picture, each where settings ask for it:
-///     temporal (before) -> spatial filter -> up-sampling -> temporal (after) -> relight
-/// The filter takes what is sampled per pixel, temporal what is sampled at all, up-sampling all; relight makes of
-/// the rest and the parts one light, at the host's resolution.
+///     temporal (before) -> spatial filter -> up-sampling -> refining -> temporal (after) -> relight
+/// The filter takes what is sampled per pixel, temporal what is sampled at all, up-sampling all; refining draws
+/// what is exact of density grids at the host's resolution where the low one is too coarse; relight makes of the
+/// rest and the parts one light, at the host's resolution.
 [[nodiscard]] Outputs reconstruct(Frame& frame, Estimate estimate);
 /// Names of its passes, with depth_downsample.
 [[nodiscard]] const std::vector<std::string>& reconstruction_passes();
@@ -35,6 +36,8 @@ using Textures = std::span<TextureRef* const>;
 void add_filter(Frame& frame, Textures textures, TextureRef frames);
 /// From Frame::size to the host's.
 void add_upsample(Frame& frame, Textures textures);
+/// Where `low` is too coarse for density grids, draws again what is exact of it, into the up-sampled estimate.
+void add_refine(Frame& frame, const Estimate& low, Estimate& estimate);
 struct TemporalMean {
     TextureRef acceptance;  ///< see Outputs, where Inputs::acceptance asks for it
     TextureRef frames;      ///< float, y: frames in the mean, 1 … 256

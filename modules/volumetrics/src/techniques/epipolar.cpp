@@ -138,16 +138,24 @@ Estimate add_epipolar(Frame& frame, bool few_lamps) {
         estimate.samples = sunlight->add_view();
     else if (sunlight)
         frame.skip("volumetrics/epipolar_view", "nobody asks for it");
-    frame.add({.name = "volumetrics/epipolar",
-               .program = frame.program(program, permutation),
-               .sources = {{frame.depth}, {noise_volume(frame), true}, {table}, {nodes}, {}, {}, samples, fixed_up},
-               .targets = {&estimate.scattering, &estimate.transmittance},
-               .lit = true,
-               .light_volumes = true,
-               .local_media = true,
-               .set = [tree = frame.settings.epipolar.tree](const PassContext&, const gl::Program& march) {
-                   march.set("coarsest_level", coarsest_epipolar_level(tree));
-               }});
+    const auto draw = [&march = frame.program(program, permutation), noise = noise_volume(frame), table, nodes,
+                       samples, fixed_up,
+                       tree = frame.settings.epipolar.tree](const std::string& name, TextureRef depth) {
+        return Pass{.name = name,
+                    .program = march,
+                    .sources = {{depth}, {noise, true}, {table}, {nodes}, {}, {}, samples, fixed_up},
+                    .lit = true,
+                    .light_volumes = true,
+                    .local_media = true,
+                    .set = [tree](const PassContext&, const gl::Program& p) {
+                        p.set("coarsest_level", coarsest_epipolar_level(tree));
+                    }};
+    };
+    Pass pass = draw("volumetrics/epipolar", frame.depth);
+    pass.targets = {&estimate.scattering, &estimate.transmittance};
+    frame.add(pass);
+    // What samples are of has the pass's own resolution.
+    if (!sunlight && !few_lamps) estimate.redraw = draw;
     return estimate;
 }
 

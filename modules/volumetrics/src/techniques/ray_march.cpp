@@ -65,14 +65,19 @@ Estimate add(Frame& frame) {
         if (frame.inputs.has_lamps) estimate.parts.push_back(create_part(frame, "lamps"));
         for (Part& part : estimate.parts) targets.insert(targets.end(), {&part.light, &part.share});
     }
-    frame.add(
-        {.name = "volumetrics/march",
-         .program = frame.program(program, {{"LOCAL_MEDIA", local_media_axis(frame)}, {"PARTS", whole == nullptr}}),
-         .sources = {{frame.depth}, {noise_volume(frame), true}},
-         .targets = targets,
-         .lit = true,
-         .light_volumes = true,
-         .local_media = true});
+    estimate.redraw =
+        [&march = frame.program(program, {{"LOCAL_MEDIA", local_media_axis(frame)}, {"PARTS", whole == nullptr}}),
+         noise = noise_volume(frame)](const std::string& name, TextureRef depth) {
+            return Pass{.name = name,
+                        .program = march,
+                        .sources = {{depth}, {noise, true}},
+                        .lit = true,
+                        .light_volumes = true,
+                        .local_media = true};
+        };
+    Pass pass = estimate.redraw("volumetrics/march", frame.depth);
+    pass.targets = targets;
+    frame.add(pass);
     return estimate;
 }
 
