@@ -15,6 +15,7 @@ uniform uint lamp;
 layout(binding = 0) uniform sampler2D depth_texture;
 #if LOCAL_MEDIA
 layout(binding = 1) uniform sampler3D froxel_scattering;  // see inject_media.comp
+layout(binding = 2) uniform sampler3D froxel_extinction;
 #endif
 layout(location = 0) out vec4 out_scattering;
 
@@ -43,9 +44,9 @@ void main() {
     found.index = lamp;
     found.lamp = lamp_ray(ray.origin, ray.direction, light.position_range.xyz);
     float half_chord = sqrt(max(core * core - found.lamp.h * found.lamp.h, 0.0));
+    Medium m = global_medium(light.position_range.y, 0.0, 1.0);
     Segment segment = Segment(max(found.lamp.t_closest - half_chord, 0.0), min(found.lamp.t_closest + half_chord, surface), 0.5,
-                              volumetrics.homogeneous_sigma_s.w, volumetrics.homogeneous_sigma_s.rgb,
-                              volumetrics.homogeneous_sigma_t.rgb);
+                              m.anisotropy, volumetrics.homogeneous_sigma_s.rgb, volumetrics.homogeneous_sigma_t.rgb);
     found.reach = lamp_reach(ray, segment, light, found.lamp);
     if (found.reach.begin >= found.reach.end) discard;
     Extinction front = global_optical_depth(ray, 0.0, segment.begin);
@@ -53,12 +54,13 @@ void main() {
     if (volumetrics.local_media_count > 0u) {
         ivec3 size = textureSize(froxel_scattering, 0);
         float view_depth = dot(volumetrics.inverse_view[2].xyz, volumetrics.eye.xyz - light.position_range.xyz);
-        vec4 local = texelFetch(froxel_scattering, ivec3(ray.uv * vec2(size.xy), froxel_slice(view_depth, size.z)), 0);
-        count_work(WORK_TEXTURE_FETCHES, 1u);
-        float weight = mean_channel(segment.sigma_s);
-        float local_weight = mean_channel(local.rgb);
-        segment.anisotropy = (weight * segment.anisotropy + local.a) / max(weight + local_weight, 1.0e-30);
+        ivec3 froxel = ivec3(ray.uv * vec2(size.xy), froxel_slice(view_depth, size.z));
+        vec4 local = texelFetch(froxel_scattering, froxel, 0);
+        count_work(WORK_TEXTURE_FETCHES, 2u);
+        add_particles(local.rgb, local.a, m);
+        segment.anisotropy = m.anisotropy;
         segment.sigma_s += local.rgb;
+        segment.sigma_t += texelFetch(froxel_extinction, froxel, 0).rgb;
         front += froxel_part(ray, segment.begin * ray.forward_cosine, false).local_depth;
     }
 #endif

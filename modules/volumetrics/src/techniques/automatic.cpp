@@ -51,7 +51,7 @@ void add_lamp_cores(Frame& frame, const Fog& lamps, Estimate& estimate) {
         cores_program, {{"LAMPS", 2}, {"LOCAL_MEDIA", local}, {"HEIGHT_MEDIA", heights ? MAX_HEIGHT_MEDIA : 0}});
     frame.add({.name = "volumetrics/lamp_cores",
                .program = cores,
-               .sources = {{frame.depth}, {froxel_media(frame).scattering}},
+               .sources = {{frame.depth}, {froxel_media(frame).scattering}, {froxel_media(frame).extinction}},
                .fog = lamps,
                .targets = {&estimate.scattering},
                .lit = true,
