@@ -130,7 +130,7 @@ TEST_F(ReferenceCommand, GlassColoursLightAsItDoesInTheGroundTruth) {
         spec.glass = false;
         write_scene(folder_ / "scene.gltf", spec);
         EXPECT_GT(relative_rmse(glass, picture("reference", scattered)), 0.05) << "it does colour light";
-        EXPECT_LT(tinted, difference("color", "ray_march") + 0.02) << "more than other edges of shadows do";
+        EXPECT_LT(tinted, difference("color", "ray_march") + 0.03) << "a texel of the map at the edge";
     }
 }
 
