@@ -79,7 +79,8 @@ TEST_F(VolumetricsAutomatic, CoresKnowHeight) {
 
 TEST_F(VolumetricsAutomatic, CoresKnowLocalMedia) {
     add_lamps();
-    host.local = {{.center = {0, 0, -6}, .half_extent = glm::vec3(3), .sigma_s = glm::vec3(0.1F), .anisotropy = 0.5F}};
+    host.local = {
+        {.center = {0, 0, -6}, .half_extent = glm::vec3(3), .sigma_s = glm::vec3(0.1F), .anisotropy = 0.5F}};
     settings.froxels.z = 128;
     const double automatic = error("auto");
     std::printf("relative RMSE: %.4f\n", automatic);
