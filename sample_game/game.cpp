@@ -18,6 +18,7 @@
 #include "engine/core/log.h"
 #include "engine/core/output_files.h"
 #include "engine/platform/frame_clock.h"
+#include "sample_game/frame_budget.h"
 #include "sample_game/level_logic.h"
 #include "sample_game/play_choice.h"
 #include "sample_game/player.h"
@@ -31,6 +32,7 @@ namespace {
 
 constexpr float game_yfov = 1.05f;  // 60 degrees
 constexpr float game_znear = 0.08f;
+constexpr float least_kept_scale = 0.25f;  // below it the level is not to be recognised
 constexpr double message_seconds = 2.5, help_seconds = 15;
 constexpr const char* help =
     "click: look around   WASD: walk   shift: run   space: jump   F: fly   1-7: places\n"
@@ -69,6 +71,8 @@ class Game {
           screen_(*session.shaders),
           scale_(options.scale) {
         session.timer->set_mode(session.timer_mode());
+        if (options.frame_budget > 0 && options.fixed_step == 0)
+            budget_.emplace(options.frame_budget, std::min(least_kept_scale, scale_), 1.0f);
         say(options.told.empty() ? help : options.told + "\n" + help, help_seconds);
     }
 
@@ -96,7 +100,10 @@ class Game {
         message_seconds_left_ -= seconds;
         frame_ms_ = frame_ms_ == 0 ? seconds * 1e3 : frame_ms_ + (seconds * 1e3 - frame_ms_) * 0.1;
         DebugUi::Hud hud{where(), frame_ms_, message_seconds_left_ > 0 ? message_ : std::string{}};
+        if (budget_ && seconds > 0) scale_ = budget_->next(scale_, seconds * 1e3);
+        const float scale = scale_;
         const DebugUi::Requests requests = ui_.frame(session_, logic_, hud, screen_, scale_, dt, !captured_);
+        if (scale_ != scale) budget_.reset();  // set by hand
         screenshot_requested_ = requests.screenshot;
         context.present(screen_.framebuffer(), screen_.size());
     }
@@ -227,6 +234,7 @@ class Game {
     DebugUi ui_;
     Screen screen_;
     float scale_;
+    std::optional<FrameBudget> budget_;
     decltype(Input::keys_pressed) early_keys_ = options_.early_keys;
     bool captured_ = false, screenshot_requested_ = false;
     double time_ = 0, message_seconds_left_ = 0, frame_ms_ = 0;

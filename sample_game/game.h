@@ -9,6 +9,7 @@ namespace tyndall {
 
 struct GameOptions {
     float scale = 1;                                  ///< of the scene: PlayChoice
+    double frame_budget = 0;                          ///< ms: PlayChoice; not with a fixed step
     std::string told;                                 ///< shown at first: PlayChoice
     int frames = 0;                                   ///< quit after so many; 0: when the window is closed
     std::optional<std::filesystem::path> screenshot;  ///< taken of the last frame, with what is on screen

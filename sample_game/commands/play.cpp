@@ -31,6 +31,7 @@ void add_play_command(CLI::App& app) {
         DrawOptions draw;
         GameOptions game;
         std::optional<float> scale;
+        std::optional<double> frame_budget;
         FlythroughOptions path{.out = "tyndall-flythrough"};
     };
     auto o = std::make_shared<Options>();
@@ -41,6 +42,10 @@ void add_play_command(CLI::App& app) {
                      "of the sides of the picture of the scene, which is scaled up to the window; without a GPU as "
                      "small as can be walked through")
         ->check(number_in(least_scale, 1));
+    command
+        ->add_option("--frame-budget", o->frame_budget,
+                     "ms that a frame may take: the scale follows, until it is set by hand; without a GPU 100")
+        ->check(number_in(1, 10000));
     command->add_option("--frames", o->game.frames, "quit after so many frames")->check(CLI::Range(1, 1000000000));
     command->add_option("--fixed-step", o->game.fixed_step, "seconds per frame instead of the wall clock")
         ->check(number_in(1e-4, 1));
@@ -53,7 +58,8 @@ void add_play_command(CLI::App& app) {
         ->check(number_in(1e-3, 1e6));
     command->callback([o, command] {
         if (!has_display() && parse_context_kind(o->draw.context) == ContextKind::automatic) {
-            for (const char* option : {"--frames", "--fixed-step", "--screenshot", "--stats", "--scale"})
+            for (const char* option :
+                 {"--frames", "--fixed-step", "--screenshot", "--stats", "--scale", "--frame-budget"})
                 if (command->count(option) > 0) throw Error(fmt::format("no display, which {} needs", option));
             fmt::print(stderr, "tyndall: no display, so the fly-through is rendered into {}\n",
                        o->path.out.string());
@@ -85,13 +91,15 @@ void add_play_command(CLI::App& app) {
         std::optional<LoadingPicture> picture;
         float share = 0;
         const auto choose = [&](Session& opening) {
-            PlayGiven given{.window = {}, .scale = o->scale, .preset = o->draw.preset};
+            PlayGiven given{
+                .window = {}, .scale = o->scale, .frame_budget = o->frame_budget, .preset = o->draw.preset};
             if (command->count("--size") > 0) given.window = o->draw.pixels();
             const PlayChoice choice = choose_play(opening.context->capabilities().renderer, given);
             o->draw.preset = choice.preset;
             opening.settings.set("scattering_orders=4");  // players see white clouds
             o->draw.apply(opening.settings);
             o->game.scale = choice.scale;
+            o->game.frame_budget = choice.frame_budget;
             o->game.told = choice.told;
             opening.context->show_window(choice.window);
         };
