@@ -128,6 +128,15 @@ TEST_F(VolumetricsAutomatic, WhatNoLampNeedsIsNotDone) {
     EXPECT_EQ(frame.skipped.at("volumetrics/many_lamps"), "pixels take all lamps one by one");
 }
 
+TEST_F(VolumetricsAutomatic, WithoutShadowMapsFroxelsTakeAllLights) {
+    host.has_shadow_maps = false;
+    host.has_sun = true;
+    add_lamps();
+    const Frame automatic = render("auto"), froxel = render("froxel");
+    EXPECT_EQ(automatic.scattering.pixels, froxel.scattering.pixels);
+    EXPECT_THAT(automatic.skipped.at("volumetrics/epipolar"), ::testing::HasSubstr("shadow_maps.glsl"));
+}
+
 // The suns of a picture with many lamps are those of the technique epipolar.
 TEST_F(VolumetricsAutomatic, SunAndAmbientLightAreCountedOnce) {
     host.has_sun = true;

@@ -83,7 +83,7 @@ TEST_F(VolumetricsPasses, MoreHeightMediaThanTheBlockHoldsAreAnError) {
     EXPECT_THROW(host.render(Settings{}), Error);
 }
 
-constexpr std::size_t most_permutations = 760;
+constexpr std::size_t most_permutations = 790;
 
 TEST_F(VolumetricsPasses, PermutationsBuildWithinWhatOpenGlPromises) {
     ShaderLibrary engine_lighting(data_root());

@@ -1,5 +1,6 @@
 #include "volumetrics/frame.h"
 
+#include <algorithm>
 #include <optional>
 
 #include "engine/gl/vertex_array.h"
@@ -80,12 +81,12 @@ void make_glass_permutation(Permutation& p) {
     const auto lit = [&](const char* define) { return p.contains(define) && p[define] != 0; };
     if (!lit("HAS_SUN") && !lit("LAMPS")) p["GLASS"] = 0;
     if (p["GLASS"] == 0) return;
-    const auto set = [&](const char* define, int value) {
-        if (p.contains(define)) p[define] = value;
+    const auto at_least = [&](const char* define, int value) {
+        if (p.contains(define)) p[define] = std::max(p[define], value);
     };
-    set("HEIGHT_MEDIA", MAX_HEIGHT_MEDIA);
-    if (p.contains("LOCAL_MEDIA") && p["LOCAL_MEDIA"] < 2) p["LOCAL_MEDIA"] = p["GRIDS"] = 1;
-    set("LIGHT_VOLUMES", 1 + (p.contains("GRIDS") ? p["GRIDS"] : 0));
+    at_least("HEIGHT_MEDIA", MAX_HEIGHT_MEDIA);
+    at_least("LOCAL_MEDIA", 1);
+    at_least("LIGHT_VOLUMES", 1);
 }
 
 }  // namespace

@@ -243,10 +243,9 @@ bool is_glass_permutation(const Permutation& p) {
         const auto found = p.find(define);
         return found == p.end() ? absent : found->second;
     };
-    const int grids = value("GRIDS", 0), local = value("LOCAL_MEDIA", 2);
     return value("HAS_SUN", 0) + value("LAMPS", 0) > 0 && value("CHROMATIC", 1) == 1 &&
-           value("HEIGHT_MEDIA", MAX_HEIGHT_MEDIA) == MAX_HEIGHT_MEDIA && local > 0 && (local > 1 || grids == 1) &&
-           value("LIGHT_VOLUMES", 1 + grids) == 1 + grids;
+           value("HEIGHT_MEDIA", MAX_HEIGHT_MEDIA) == MAX_HEIGHT_MEDIA && value("LOCAL_MEDIA", 2) > 0 &&
+           value("LIGHT_VOLUMES", 1) > 0;
 }
 
 bool is_sun(const Lamp& lamp, glm::vec3 eye) {

@@ -73,12 +73,19 @@ struct KeptByAutomatic : KeptTable {
     [[nodiscard]] std::size_t bytes() const override { return KeptTable::bytes() + history.bytes(); }
 };
 
+/// Without shadow maps to ask, froxels take all lights.
 Estimate add(Frame& frame) {
+    if (!frame.inputs.has_shadow_maps) {
+        for (const char* name : {"volumetrics/epipolar_lines", "volumetrics/epipolar", "volumetrics/many_lamps",
+                                 "volumetrics/lamp_cores"})
+            frame.skip(name, "the host has no shaders/interface/shadow_maps.glsl");
+        return add_froxel(frame);
+    }
     auto& kept = frame.kept<KeptByAutomatic>();
     Estimate estimate = add_epipolar(frame, true);
-    if (!estimate) return estimate;
     if (frame.inputs.lamps.size() == frame.media.few_lamps.size()) {
-        frame.skip("volumetrics/many_lamps", "pixels take all lamps one by one");
+        for (const char* name : {"volumetrics/many_lamps", "volumetrics/lamp_cores"})
+            frame.skip(name, frame.inputs.lamps.empty() ? "no lamps" : "pixels take all lamps one by one");
         kept.history = {};
         return estimate;
     }
@@ -98,10 +105,9 @@ Estimate add(Frame& frame) {
 
 TechniqueDesc automatic() {
     std::vector<std::string> passes = epipolar_passes();
-    for (const char* name : {"volumetrics/froxel_columns", "volumetrics/inject_media", "volumetrics/froxel_light",
-                             "volumetrics/froxel_history", "volumetrics/froxel_accumulate",
-                             "volumetrics/many_lamps", "volumetrics/lamp_cores"})
-        passes.emplace_back(name);
+    passes.insert(passes.end(), {"volumetrics/many_lamps", "volumetrics/lamp_cores"});
+    const std::vector<std::string> of_froxels = froxel().passes;
+    passes.insert(passes.end(), of_froxels.begin(), of_froxels.end());
     return {.name = "auto",
             .help = "Sun and the lamps that matter most by epipolar lines, all other lamps by froxels.",
             .settings = "auto_",

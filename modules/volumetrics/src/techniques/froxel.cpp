@@ -21,7 +21,9 @@ const ProgramDesc program{.name = "volumetrics/froxel_apply",
                           .valid = is_grid_permutation};
 const ProgramRegistry::Registration registration(program);
 
-Estimate add(Frame& frame) {
+}  // namespace
+
+Estimate add_froxel(Frame& frame) {
     const bool keeps = frame.settings.froxels.history > 0 && (frame.inputs.has_sun || frame.inputs.has_lamps);
     if (!keeps) frame.kept_by_technique.reset();
     Estimate estimate = frame.create_estimate();
@@ -37,8 +39,6 @@ Estimate add(Frame& frame) {
                .local_media = true});
     return estimate;
 }
-
-}  // namespace
 
 Fog add_froxel_fog(Frame& frame, FroxelHistory* history, FroxelContent content) {
     const FroxelMedia& media = froxel_media(frame);
@@ -71,7 +71,7 @@ TechniqueDesc froxel() {
                        "volumetrics/froxel_light", "volumetrics/froxel_history", "volumetrics/froxel_accumulate",
                        "volumetrics/froxel_apply"},
             .traits = {.any_resolution = true},
-            .add = add};
+            .add = add_froxel};
 }
 
 }  // namespace tyndall::volumetrics
