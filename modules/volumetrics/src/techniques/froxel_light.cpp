@@ -53,11 +53,13 @@ FroxelLight add_froxel_light(Frame& frame, const FroxelMedia& media, TextureRef 
     // Several height media are rare and slow: they have no program of their own without local media.
     const bool local =
         !frame.media.local.empty() || frame.resources.light_volumes.any() || height_media_axis(frame.media) > 1;
+    Permutation permutation{{"LOCAL_MEDIA", local}, {"HAS_SUN", has_sun}, {"FROXEL_HISTORY", keeps}};
+    // Without their cores lamps change little within a froxel: its middle stands for it.
+    if (content == FroxelContent::many_lamps) permutation["LAMPS"] = 1 + static_cast<int>(LampIntegration::center);
     const int run = run_of_slices(frame);
     const glm::ivec3 group{16, 16, run};
     frame.add({.name = "volumetrics/froxel_light",
-               .program = frame.program(program,
-                                        {{"LOCAL_MEDIA", local}, {"HAS_SUN", has_sun}, {"FROXEL_HISTORY", keeps}}),
+               .program = frame.program(program, permutation),
                .sources = {{columns},
                            {media.scattering},
                            {media.extinction},
