@@ -116,11 +116,11 @@ TEST_F(VolumetricsAutomatic, WhatNoLampNeedsIsNotDone) {
     host.has_sun = true;
     Frame frame = render("auto");
     EXPECT_THAT(frame.live_passes, Contains("volumetrics/epipolar"));
-    for (const char* pass : {"volumetrics/froxel_light", "volumetrics/many_lamps", "volumetrics/lamp_cores"})
+    for (const char* pass : {"volumetrics/many_lamps_light", "volumetrics/many_lamps", "volumetrics/lamp_cores"})
         EXPECT_THAT(frame.live_passes, Not(Contains(pass))) << pass;
     add_lamps();
     frame = render("auto");
-    for (const char* pass : {"volumetrics/froxel_light", "volumetrics/many_lamps", "volumetrics/lamp_cores"})
+    for (const char* pass : {"volumetrics/many_lamps_light", "volumetrics/many_lamps", "volumetrics/lamp_cores"})
         EXPECT_THAT(frame.live_passes, Contains(pass)) << pass;
     settings.automatic.lamps = 5;
     settings.automatic.least_lamp = 0;

@@ -32,7 +32,7 @@ class EpipolarPlanTest : public ::testing::Test {
         inputs.has_sun = true;
         inputs.sun_direction = -glm::normalize(direction);
     }
-    [[nodiscard]] EpipolarPlan plan() const { return plan_epipolar(inputs, settings, pixels); }
+    [[nodiscard]] EpipolarPlan plan() const { return plan_epipolar(inputs, inputs.lamps, settings, pixels); }
     /// Angle (rad) round the light of a direction, from the first line on.
     static float angle_of(const EpipolarLines& light, glm::vec3 direction) {
         const float angle =

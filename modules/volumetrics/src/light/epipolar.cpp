@@ -151,7 +151,8 @@ void EpipolarPlan::add(EpipolarLines lines, std::uint32_t index) {
     lights.push_back(lines);
 }
 
-EpipolarPlan plan_epipolar(const Inputs& inputs, const Settings& settings, glm::ivec2 pixels) {
+EpipolarPlan plan_epipolar(const Inputs& inputs, const std::vector<Lamp>& lamps, const Settings& settings,
+                           glm::ivec2 pixels) {
     const Picture picture = picture_of(inputs, pixels);
     EpipolarPlan with_sun;
     if (inputs.has_sun) {
@@ -169,7 +170,7 @@ EpipolarPlan plan_epipolar(const Inputs& inputs, const Settings& settings, glm::
     constexpr int coarsest = 8;
     for (int coarser = 0;; ++coarser) {
         EpipolarPlan plan = with_sun;
-        for (const Lamp& lamp : inputs.lamps)
+        for (const Lamp& lamp : lamps)
             plan.add(lamp_lines(picture, inputs, lamp, settings, coarser), lamp.index + 1);
         if (plan.nodes <= most || coarser == coarsest) return plan;
     }

@@ -41,10 +41,11 @@ struct EpipolarPlan {
 /// they do not (a picture counts as 128 x 128 pixels at least); the sun's spacing is doubled where it would take
 /// half of most_epipolar_nodes. Where Settings want samples, the sun's lines have them as far apart as they
 /// themselves are, or as most_epipolar_samples allows.
-[[nodiscard]] EpipolarPlan plan_epipolar(const Inputs& inputs, const Settings& settings, glm::ivec2 pixels);
+[[nodiscard]] EpipolarPlan plan_epipolar(const Inputs& inputs, const std::vector<Lamp>& lamps,
+                                         const Settings& settings, glm::ivec2 pixels);
 
 inline constexpr int most_epipolar_nodes = 1 << 24;  ///< 128 MiB
-inline constexpr int most_epipolar_samples = 2048;   ///< a line: MOST_SAMPLES of epipolar_sources.comp
+inline constexpr int most_epipolar_samples = 2048;   ///< a line: epipolar_choose.comp
 
 /// Whether the sun's share is interpolated along its lines.
 [[nodiscard]] inline bool samples_lines(const Settings& settings) {

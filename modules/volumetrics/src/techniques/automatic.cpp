@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 
 #include "frame/resources.h"
 #include "media/froxel_media.h"
@@ -15,6 +16,10 @@
 
 namespace tyndall::volumetrics {
 namespace {
+
+const std::array<std::string, 5> own_passes{
+    froxel_pass("light", FroxelContent::many_lamps), froxel_pass("history", FroxelContent::many_lamps),
+    froxel_pass("accumulate", FroxelContent::many_lamps), "volumetrics/many_lamps", "volumetrics/lamp_cores"};
 
 const ProgramDesc program{.name = "volumetrics/many_lamps",
                           .stages = {{GL_VERTEX_SHADER, "shaders/lib/fullscreen.vert"},
@@ -76,20 +81,21 @@ struct KeptByAutomatic : KeptTable {
 /// Without shadow maps to ask, froxels take all lights.
 Estimate add(Frame& frame) {
     if (!frame.inputs.has_shadow_maps) {
-        for (const char* name : {"volumetrics/epipolar_lines", "volumetrics/epipolar", "volumetrics/many_lamps",
-                                 "volumetrics/lamp_cores"})
-            frame.skip(name, "the host has no shaders/interface/shadow_maps.glsl");
+        const char* reason = "the host has no shaders/interface/shadow_maps.glsl";
+        for (const char* name : {"volumetrics/epipolar_lines", "volumetrics/epipolar"}) frame.skip(name, reason);
+        for (const std::string& name : own_passes) frame.skip(name, reason);
         return add_froxel(frame);
     }
     auto& kept = frame.kept<KeptByAutomatic>();
     Estimate estimate = add_epipolar(frame, true);
     if (frame.inputs.lamps.size() == frame.media.few_lamps.size()) {
-        for (const char* name : {"volumetrics/many_lamps", "volumetrics/lamp_cores"})
+        for (const std::string& name : own_passes)
             frame.skip(name, frame.inputs.lamps.empty() ? "no lamps" : "pixels take all lamps one by one");
         kept.history = {};
         return estimate;
     }
     FroxelHistory* history = frame.settings.froxels.history > 0 ? &kept.history : nullptr;
+    if (history == nullptr) kept.history = {};
     const Fog lamps = add_froxel_fog(frame, history, FroxelContent::many_lamps);
     frame.add({.name = "volumetrics/many_lamps",
                .program = frame.program(program),
@@ -105,7 +111,7 @@ Estimate add(Frame& frame) {
 
 TechniqueDesc automatic() {
     std::vector<std::string> passes = epipolar_passes();
-    passes.insert(passes.end(), {"volumetrics/many_lamps", "volumetrics/lamp_cores"});
+    passes.insert(passes.end(), own_passes.begin(), own_passes.end());
     const std::vector<std::string> of_froxels = froxel().passes;
     passes.insert(passes.end(), of_froxels.begin(), of_froxels.end());
     return {.name = "auto",

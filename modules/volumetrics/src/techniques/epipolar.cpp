@@ -54,11 +54,6 @@ int rows_of(std::int64_t texels) {
     return static_cast<int>(std::bit_ceil(static_cast<std::uint64_t>((texels + texels_a_row - 1) / texels_a_row)));
 }
 
-Inputs with_lamps(Inputs inputs, const std::vector<Lamp>& lamps) {
-    inputs.lamps = lamps;
-    return inputs;
-}
-
 const char* reason_for_no_samples(const Frame& frame) {
     if (!frame.inputs.has_sun) return "no sun";
     if (frame.media.through_glass) return "glass colours light finer than samples are apart";
@@ -110,8 +105,8 @@ Estimate add_epipolar(Frame& frame, bool few_lamps) {
             frame.skip(name, "the host has no shaders/interface/shadow_maps.glsl");
         return {};
     }
-    const EpipolarPlan plan = plan_epipolar(
-        few_lamps ? with_lamps(frame.inputs, frame.media.few_lamps) : frame.inputs, frame.settings, frame.size);
+    const EpipolarPlan plan = plan_epipolar(frame.inputs, few_lamps ? frame.media.few_lamps : frame.inputs.lamps,
+                                            frame.settings, frame.size);
     const TextureRef table = upload_table(frame, plan);
     std::optional<EpipolarSunlight> sunlight;
     const char* without_samples = reason_for_no_samples(frame);

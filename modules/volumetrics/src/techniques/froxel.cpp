@@ -49,9 +49,9 @@ Fog add_froxel_fog(Frame& frame, FroxelHistory* history, FroxelContent content) 
     if (history != nullptr)
         radiance = add_froxel_history(frame, columns, light, *history);
     else
-        frame.skip("volumetrics/froxel_history",
+        frame.skip(froxel_pass("history", content),
                    frame.settings.froxels.history > 0 ? "neither sun nor lamps" : "froxel_history is 0");
-    return add_froxel_accumulate(frame, media, columns, radiance);
+    return add_froxel_accumulate(frame, media, columns, radiance, content);
 }
 
 void bind_fog_textures(const PassContext& context, const Fog& fog) {

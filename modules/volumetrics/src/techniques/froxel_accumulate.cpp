@@ -12,12 +12,13 @@ const ProgramRegistry::Registration registration(program);
 
 }  // namespace
 
-Fog add_froxel_accumulate(Frame& frame, const FroxelMedia& media, TextureRef columns, TextureRef radiance) {
+Fog add_froxel_accumulate(Frame& frame, const FroxelMedia& media, TextureRef columns, TextureRef radiance,
+                          FroxelContent content) {
     Fog fog{.columns = columns, .radiance = radiance};
     const gl::TextureDesc desc = frame.passes.desc(radiance);
     if (media.extinction && frame.media.chromatic)
         fog.optical_depth = frame.passes.create("volumetrics/froxel_optical_depth", desc);
-    frame.add({.name = "volumetrics/froxel_accumulate",
+    frame.add({.name = froxel_pass("accumulate", content),
                .program = frame.program(program),
                .sources = {{columns}, {}, {media.extinction}},
                .images = {{&fog.radiance, true}, {&fog.optical_depth}},

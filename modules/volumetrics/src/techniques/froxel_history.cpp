@@ -81,7 +81,7 @@ TextureRef add_froxel_history(Frame& frame, TextureRef columns, const FroxelLigh
         frame.passes.import_history("volumetrics/froxel_certainty_kept", history.certainty());
     TextureRef radiance = light.radiance;
     frame.add(
-        {.name = "volumetrics/froxel_history",
+        {.name = froxel_pass("history", light.content),
          .program = frame.program(program, {{"HAS_SUN", static_cast<bool>(light.sun)},
                                             {"HAS_LAMPS", static_cast<bool>(light.lamps)},
                                             {"HISTORY", kind}}),

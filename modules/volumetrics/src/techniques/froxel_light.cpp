@@ -58,7 +58,7 @@ FroxelLight add_froxel_light(Frame& frame, const FroxelMedia& media, TextureRef 
     if (content == FroxelContent::many_lamps) permutation["LAMPS"] = 1 + static_cast<int>(LampIntegration::center);
     const int run = run_of_slices(frame);
     const glm::ivec3 group{16, 16, run};
-    frame.add({.name = "volumetrics/froxel_light",
+    frame.add({.name = froxel_pass("light", content),
                .program = frame.program(program, permutation),
                .sources = {{columns},
                            {media.scattering},

@@ -12,6 +12,10 @@ class FroxelHistory;
 
 /// Of which light froxels hold: all; or of the lamps that are not among FrameMedia::few_lamps.
 enum class FroxelContent { all, many_lamps };
+/// Name of the pass of a step: a frame may have both, for transparents are fogged by all light.
+[[nodiscard]] inline std::string froxel_pass(const char* step, FroxelContent content) {
+    return (content == FroxelContent::all ? "volumetrics/froxel_" : "volumetrics/many_lamps_") + std::string(step);
+}
 
 /// Without a history only `radiance`.
 struct FroxelLight {
@@ -32,6 +36,6 @@ struct FroxelLight {
 /// Sums up along each column. Fog::radiance: rgb light up to the end of each slice, a mean optical depth of the
 /// local media; Fog::optical_depth that of each channel, where there are local media and coloured extinction.
 [[nodiscard]] Fog add_froxel_accumulate(Frame& frame, const FroxelMedia& media, TextureRef columns,
-                                        TextureRef radiance);
+                                        TextureRef radiance, FroxelContent content);
 
 }  // namespace tyndall::volumetrics
