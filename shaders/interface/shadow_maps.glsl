@@ -3,6 +3,7 @@
 #ifndef INTERFACE_SHADOW_MAPS_GLSL
 #define INTERFACE_SHADOW_MAPS_GLSL
 
+#include "shaders/engine/glass_lookup.glsl"
 #include "shaders/engine/shadow_occluder.glsl"
 
 // Of the light's ray through a point: distance (m) from the point towards the light at which the ray meets a surface for
@@ -10,5 +11,11 @@
 // <= 0. NO_OCCLUDER: 1e9.
 float sun_occluder(vec3 world) { return sun_shadow_occluder(world); }
 float light_occluder(uint index, GpuLight light, vec3 world) { return light_shadow_occluder(light, world); }
+
+// Where Inputs::has_glass: what glass leaves of the sun's ray through a point, of each channel, once it has passed all glass
+// before its first surface; wherever on the ray the point lies. 1 where there is none.
+#if GLASS
+vec3 sun_ray_filter(vec3 world) { return sun_ray_glass(world); }
+#endif
 
 #endif

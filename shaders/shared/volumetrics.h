@@ -117,8 +117,8 @@ struct VolumetricsData {
     float grid_piece;           // length of the pieces of grids, voxels or pixels
     uint few_lamp_count;
     float lamp_core;            // of the many lamps: radius of the core / view depth, see lamp_cores.frag
+    float lamp_core_slices;     // half of its least thickness along the view, as a share of all slices
     uint unused_1;
-    uint unused_2;
     uvec4 few_lamps[MAX_FEW_LAMPS / 4];  // technique auto: lamps that pixels take one by one, the others are in froxels; ~0: none
     mat4 froxel_begins;         // FROXEL_TABLE: view depth (m) where each of 16 equal shares of the slices begins
     mat4 froxel_lengths;        // and their lengths (m); entry i is [i / 4][i % 4]

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "draw_scene.h"
+#include "moderate.h"
 
 namespace tyndall::stress {
 namespace {
@@ -43,7 +44,7 @@ Image mean_of(const std::vector<Layers>& frames, Image Layers::*layer) {
 
 bool counts_all_frames(const StressFrame& frame) {
     const volumetrics::Settings& v = frame.options.volumetrics;
-    return frame.feature == Feature::history && frame.options.volumetrics.technique != "froxel" &&
+    return frame.feature == Feature::history && !holds_froxels(frame.options.volumetrics.technique) &&
            v.temporal.mode == volumetrics::Temporal::accumulate && v.temporal.frames >= history_frames &&
            !v.temporal.clip && !v.temporal.reject;
 }

@@ -227,7 +227,9 @@ Bound scattering_bound(const StressFrame& frame, const Truth& truth, const Truth
     const double local = local_depth(truth, pixel.ray, pixel.open.distance);
     Bound bound{4e-3, 2e-3};
     if (frame.options.render.ambient > 0) bound.relative += 0.02;
-    const bool march = technique == "ray_march" || technique == "epipolar", froxel = technique == "froxel";
+    const bool automatic = technique == "auto";
+    const bool march = automatic || technique == "ray_march" || technique == "epipolar";
+    const bool froxel = technique == "froxel" || (automatic && lamps);
     if (march || froxel || technique == "shaft_geometry") {
         const double end = visible_end(frame, truth, pixel), varies = folds(frame, truth, pixel, end);
         const bool tail = end == marched(frame, pixel) && pixel.open.distance > v.march.max_distance;
@@ -237,7 +239,7 @@ Bound scattering_bound(const StressFrame& frame, const Truth& truth, const Truth
         const std::optional<double> nodes = node_error(frame, truth, pixel);
         if (!nodes) return left_out(limit_nodes);
         bound.relative += *nodes;
-        if (froxel && lamps && passes_near_lamp(frame, truth, pixel)) return left_out(limit_columns);
+        if (froxel && !automatic && lamps && passes_near_lamp(frame, truth, pixel)) return left_out(limit_columns);
         if (froxel) bound.relative += 0.01;
     } else if (technique == "particles") {
         if (lamps || local > 0) return left_out(limit_sprites);
@@ -271,7 +273,7 @@ Bound scattering_bound(const StressFrame& frame, const Truth& truth, const Truth
 // froxels 0.117.
 double shadow_bound(const StressFrame& frame) {
     const bool coarse =
-        std::ranges::any_of(frame.media, is_bounded) || frame.options.volumetrics.technique == "froxel";
+        std::ranges::any_of(frame.media, is_bounded) || holds_froxels(frame.options.volumetrics.technique);
     return coarse ? 0.2 : 0.05;
 }
 
@@ -295,7 +297,7 @@ std::string differs_from_plain(const StressFrame& frame, bool shadows) {
         return fault_low_froxels;
     if (frame.options.volumetrics.technique == "particles" && history)
         return "limit: without a history particles stand still, so that it is no mean of plain frames";
-    if (frame.options.volumetrics.technique == "froxel" && history && shadows)
+    if (holds_froxels(frame.options.volumetrics.technique) && history && shadows)
         return "limit: the history of froxels samples visibility beside the ray, too";
     if (!filters_shares(frame)) return "";
     if (shadows && !counts_all_frames(frame))

@@ -20,6 +20,7 @@ constexpr const char* fault_density =
     "fault: local emission and extinction beyond 65504 are cut off in froxels, so that their ratio is lost";
 constexpr const char* dark = "dark: no light, so that it is certain that there is none and nothing else";
 constexpr int pixels_per_frame = 4;
+constexpr double least_light = 1e-5;  // of half floats
 
 double mean_of(const Image& image) {
     double sum = 0;
@@ -93,7 +94,7 @@ void compare_with_truth(const StressFrame& frame, const Truth& truth, const Laye
         }
         const float* value = layers.scattering.at(at.x, at.y);
         if (!truth.has_shadows()) {
-            open.add("scattering", at, value, pixel.open.scattering, s, s.floor * mean + 1e-5);
+            open.add("scattering", at, value, pixel.open.scattering, s, s.floor * mean + least_light);
             if (pixel.open.scattering == dvec3(0)) {
                 --open.pixels;
                 tally.leave_out(dark, 1);
@@ -106,7 +107,8 @@ void compare_with_truth(const StressFrame& frame, const Truth& truth, const Laye
         else
             ++shadow_pixels;
         for (int c = 0; c < 3; ++c) {
-            shadow_error += std::abs(value[c] - right[c]);
+            const double off = std::abs(value[c] - std::min<double>(right[c], half_max));
+            shadow_error += std::max(off - least_light, 0.0);
             light += pixel.open.scattering[c];
         }
     }
@@ -192,7 +194,7 @@ void Compare::check(const StressFrame& frame, Random random, Findings& findings)
     const std::vector<Layers> plain_frames = draw(frame, scene, plain(frame.options), frames);
     const std::vector<Layers> drawn = featured ? draw(frame, scene, frame.options, frames) : plain_frames;
     const Truth truth(frame, scene);
-    const bool exact = filters_shares(frame) || (history && frame.options.volumetrics.technique == "froxel");
+    const bool exact = filters_shares(frame) || (history && holds_froxels(frame.options.volumetrics.technique));
     compare_with_truth(frame, truth, exact ? drawn.back() : plain_frames.back(), random, tally, findings);
     if (frame.options.volumetrics.technique == "particles")
         compare_mean_transmittance(frame, truth, plain_frames.back(), tally, findings);
@@ -219,7 +221,7 @@ void Compare::check_doubled(const StressFrame& frame, Findings& findings) {
     const volumetrics::Settings& v = frame.options.volumetrics;
     const bool of_shares = v.filter.kernel != volumetrics::Filter::none ||
                            v.temporal.mode != volumetrics::Temporal::off ||
-                           v.resolution.size != volumetrics::Resolution::full || v.technique == "froxel";
+                           v.resolution.size != volumetrics::Resolution::full || holds_froxels(v.technique);
     constexpr float least_share = 1.0f / 225;  // of the widest filter's pixels
     if (brightest > (of_shares ? 0.9f * least_share : 0.9f) * half_max) {
         tally.leave_out(limit_white, pixels);

@@ -23,17 +23,23 @@ constexpr std::array<Turn, moderate_turns> turns{{{"ray_march", false, false},
                                                   {"analytic_fog", true, false},
                                                   {"radial_shafts", false, false},
                                                   {"epipolar", false, true},
-                                                  {"epipolar", true, true}}};
+                                                  {"epipolar", true, true},
+                                                  {"auto", false, true},
+                                                  {"auto", true, true}}};
 
 std::vector<Feature> features(const std::string& technique) {
     using enum Feature;
     if (technique == "reference" || technique == "analytic_fog") return {plain};
-    if (technique == "froxel" || technique == "particles") return {plain, history, low_resolution};
+    if (holds_froxels(technique) || technique == "particles") return {plain, history, low_resolution};
     if (technique == "epipolar") return {plain, low_resolution};
     return {plain, filter, history, low_resolution};
 }
 
 }  // namespace
+
+bool holds_froxels(const std::string& technique) {
+    return technique == "froxel" || technique == "auto";
+}
 
 Knows knows(const std::string& technique) {
     if (technique == "analytic_fog" || technique == "radial_shafts") return {false, false, false};
@@ -68,7 +74,7 @@ void moderate_visit(Structure& s, int visit) {
         if (technique == "radial_shafts") s.world = World::nothing;
     }
     const bool sprites = technique == "billboards" || technique == "particles";
-    if (!(sprites || technique == "froxel") || visit / 2 % 2 == 1) return;
+    if (!(sprites || holds_froxels(technique)) || visit / 2 % 2 == 1) return;
     s.local = false;
     if (technique == "particles") s.heights = 0;
     if (s.heights == 0) s.homogeneous = true;
@@ -96,11 +102,12 @@ void moderate_frame(StressFrame& frame, int visit, Random& of_sequence, Random& 
     v.froxels.distribution =
         of_sequence.pick({volumetrics::DepthDistribution::linear, volumetrics::DepthDistribution::exponential,
                           volumetrics::DepthDistribution::logarithmic});
-    const bool lit = frame.options.volumetrics.technique == "froxel";
+    const bool lit = holds_froxels(frame.options.volumetrics.technique);
     v.froxels.x = v.froxels.y = lit ? 25 : 17;
     v.froxels.z = lit ? 79 : 191;
     v.froxels.far = lit ? 100.0f : 40.0f;
     v.froxels.history = frame.feature == Feature::history ? 2 + of_sequence.below(100) : 0;
+    v.epipolar.lamp_cells = std::max(v.epipolar.lamp_cells, 256);
     v.light_volumes.sun_size = 48;
     v.light_volumes.lamp_size = 16;
     v.light_volumes.lamp_count = 64;

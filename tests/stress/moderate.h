@@ -10,8 +10,11 @@ struct Knows {
 };
 [[nodiscard]] Knows knows(const std::string& technique);
 
+/// Holds light in froxels, and their history.
+[[nodiscard]] bool holds_froxels(const std::string& technique);
+
 /// Comparable structures take turns, so that few frames meet every technique, with local media and with shadows.
-constexpr int moderate_turns = 14;
+constexpr int moderate_turns = 16;
 /// Extinctions of 1e-4 to 0.3 /m (local: 0.01 to 0.15), |g| up to 0.6, near planes of 0.1 m, lamps within 25 m
 /// whose range ends before the march does, 24 to 128 steps.
 void moderate_structure(Structure& structure, int turn, Random& random);

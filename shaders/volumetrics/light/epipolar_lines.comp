@@ -1,6 +1,6 @@
 // The lines of one light, see epipolar.glsl: one group for each. Of a line of n cells nodes n .. 2n - 1 are its cells and
-// node i has the children 2i and 2i + 1; each holds the smallest and the largest slope. Node 0 holds how many cells are made:
-// of a line with samples those that they see.
+// node i has the children 2i and 2i + 1; each holds the smallest and the largest slope. Node 0 holds how many cells are made,
+// of a line with samples those that they see, and with GLASS in y 1 where some of the sun's light has come through glass.
 #include "shaders/interface/lights.glsl"
 #include "shaders/interface/shadow_maps.glsl"
 #include "shaders/volumetrics/frame/data.glsl"
@@ -17,6 +17,16 @@ uniform bool sampled;  // the sun's lines are
 
 
 shared vec2 node[MOST_CELLS];
+#if GLASS
+shared uint glass;
+
+bool is_coloured(EpipolarLines lines, vec3 across, float place) {
+    if (light != 0) return false;
+    vec3 world = volumetrics.eye.xyz + across * (EPIPOLAR_RADIUS * (exp(place / lines.cells_per_unit) - 1.0));
+    count_work(WORK_TEXTURE_FETCHES, 1u);
+    return any(lessThan(sun_ray_filter(world), vec3(1.0)));
+}
+#endif
 
 float sun_slope(EpipolarLines lines, vec3 across, float place) {
     uint lamp = uint(max(light - 1, 0));
@@ -68,7 +78,10 @@ void main() {
 
     bool counted = light == 0 && sampled;
     int made = counted ? int(texelFetch(cells_seen, ivec2(line, 0), 0).x) : lines.cells;
-    if (thread == 0) imageStore(nodes, epipolar_texel(root), vec4(float(made)));
+#if GLASS
+    if (thread == 0) glass = 0u;
+    barrier();
+#endif
     float share_made = float(made) / float(lines.cells);
 
     int part = max(lines.cells / THREADS, 1);  // cells of a thread
@@ -80,12 +93,20 @@ void main() {
             float place = float(cell) + 0.5;
             float slope = lines.distance == 0.0 ? sun_slope(lines, across, place) : lamp_slope(lines, across, place);
             count_work(WORK_SHADOW_LOOKUPS, 1u);
+#if GLASS
+            if (is_coloured(lines, across, place)) glass = 1u;
+#endif
             node[cell] = vec2(clamp(slope, -EPIPOLAR_LARGEST, EPIPOLAR_LARGEST));
             imageStore(nodes, epipolar_texel(root + lines.cells + cell), vec4(node[cell], 0.0, 0.0));
         }
         if (begin < made) merge(root, begin, part, 1, lines.cells, share_made);
     }
     barrier();
+    float coloured = 0.0;
+#if GLASS
+    coloured = float(glass);
+#endif
+    if (thread == 0) imageStore(nodes, epipolar_texel(root), vec4(float(made), coloured, 0.0, 0.0));
     if (thread == 0 && made > 0) merge(root, 0, parts, part, parts, share_made);
     flush_work();
 }

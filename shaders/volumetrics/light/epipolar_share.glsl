@@ -7,6 +7,10 @@
 #include "shaders/volumetrics/light/epipolar.glsl"
 #include "shaders/volumetrics/media/extinction.glsl"
 
+#ifndef GLASS
+#define GLASS 0
+#endif
+
 layout(binding = 2) uniform sampler2D epipolar_table;
 layout(binding = 3) uniform sampler2D epipolar_nodes;
 uniform int coarsest_level;  // 0: cell after cell
@@ -21,6 +25,7 @@ struct EpipolarRay {
     float sine;
     float distance;
     float cells_per_unit;
+    bool glass;  // some of the sun's light along the line has come through glass
 };
 
 EpipolarRay epipolar_ray(int light, vec3 direction) {
@@ -30,8 +35,12 @@ EpipolarRay epipolar_ray(int light, vec3 direction) {
     float sine = length(across);
     int line = clamp(int(epipolar_line(lines, across)), 0, lines.lines - 1);
     float slope = clamp(cosine / max(sine, 1.0e-9), -EPIPOLAR_LARGEST, EPIPOLAR_LARGEST);
-    return EpipolarRay(lines.nodes + line * 2 * lines.cells, lines.cells, lines.cells - 1, slope, cosine, sine, lines.distance,
-                       lines.cells_per_unit);
+    int root = lines.nodes + line * 2 * lines.cells;
+    bool glass = false;
+#if GLASS
+    glass = texelFetch(epipolar_nodes, epipolar_texel(root), 0).y > 0.0;
+#endif
+    return EpipolarRay(root, lines.cells, lines.cells - 1, slope, cosine, sine, lines.distance, lines.cells_per_unit, glass);
 }
 
 // The place among the cells that the ray passes at the distance t, and of parallel light the distance of a place.

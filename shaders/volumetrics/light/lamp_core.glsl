@@ -15,8 +15,11 @@
 // the lamp has none, for it is behind the eye or a further sun.
 float core_radius(GpuLight light) {
     float depth = dot(volumetrics.inverse_view[2].xyz, volumetrics.eye.xyz - light.position_range.xyz);
-    float radius = volumetrics.lamp_core * depth;
     if (depth <= volumetrics.eye.w || depth > froxel_far()) return 0.0;
+    float w = froxel_w(depth);
+    float slices = froxel_view_depth(min(w + volumetrics.lamp_core_slices, 1.0)) -
+                   froxel_view_depth(max(w - volumetrics.lamp_core_slices, 0.0));
+    float radius = max(volumetrics.lamp_core * depth, slices);
     return light.position_range.w > 0.0 ? min(radius, 0.5 * light.position_range.w) : radius;
 }
 

@@ -69,13 +69,13 @@ Visibility sun_visibility_at(vec3 point, float view_depth) {
 
 // Of sunlight that falls by exp(-fall) from `begin` to `end`.
 #if EPIPOLAR
-EpipolarRay sun_epipolar_ray = EpipolarRay(0, 1, 0, 0.0, 0.0, 1.0, 0.0, 1.0);  // set once a pixel
+EpipolarRay sun_epipolar_ray = EpipolarRay(0, 1, 0, 0.0, 0.0, 1.0, 0.0, 1.0, false);  // set once a pixel
 
 Visibility sun_share(Ray ray, float begin, float end, float fall, float offset) {
     float share = epipolar_share(sun_epipolar_ray, Gathering(begin, end, fall, vec4(0.0), false));
 #if GLASS
     vec4 lit = vec4(0.0);
-    for (int i = 0; i < GLASS_POINTS && share > 0.0; ++i) {
+    for (int i = 0; i < GLASS_POINTS && share > 0.0 && sun_epipolar_ray.glass; ++i) {
         float t = mix(begin, end, equal_transmittance((float(i) + 0.5) / float(GLASS_POINTS), fall));
         vec3 visible = sun_visibility_at(visibility_point(ray, t), t * ray.forward_cosine);
         if (!is_dark(visible)) lit += vec4(visible, 1.0);

@@ -32,6 +32,7 @@
 #if LOCAL_MEDIA == 2
 #include "shaders/volumetrics/light/local_segment.glsl"
 #endif
+#include "shaders/volumetrics/light/needed_steps.glsl"
 
 layout(early_fragment_tests) in;  // see modules/volumetrics/src/reconstruction/refine.cpp
 layout(binding = 0) uniform sampler2D depth_texture;
@@ -54,6 +55,10 @@ layout(location = LAMPS_LOCATION + 1) out vec4 out_lamps_share;
 
 // Half of the smallest half-float number: a transmittance of this is stored as 0, and nothing behind it shows.
 const float OPAQUE = 2.98e-8;
+
+#if EPIPOLAR && GLASS
+const uint LEAST_GLASS_STEPS = 4u;  // of a ray through coloured light, each of GLASS_POINTS
+#endif
 
 #if SUMS_APART
 Part sun_light = Part(vec3(0.0), vec3(0.0));
@@ -286,8 +291,18 @@ void main() {
 #endif
 #endif
     float a = begin;
-    float step_length = (end - a) * volumetrics.first_step;
-    uint steps = a < end ? volumetrics.steps : 0u;
+#if EPIPOLAR && !LAMPS
+    uint steps = needed_steps(ray, begin, end);
+#if GLASS
+    if (sun_epipolar_ray.glass) steps = max(steps, min(volumetrics.steps, LEAST_GLASS_STEPS));
+#endif
+    vec2 stepping = stepping_of(steps);
+#else
+    uint steps = volumetrics.steps;
+    vec2 stepping = vec2(volumetrics.first_step, volumetrics.step_growth);
+#endif
+    float step_length = (end - a) * stepping.x;
+    if (a >= end) steps = 0u;
     for (uint i = 0u; largest(march.transmittance) > OPAQUE; ++i) {
         float b = i + 1u == steps ? end : min(a + step_length, end);
         if (i >= steps) {
@@ -301,7 +316,7 @@ void main() {
 #endif
         }
         march_segment(ray, a, b, offset, sun_front, march);
-        step_length *= volumetrics.step_growth;
+        step_length *= stepping.y;
         a = b;
     }
 #if SUN_ALONE

@@ -70,6 +70,9 @@ vec3 light_filter(uint index, GpuLight light, vec3 world) { return sun_filter(wo
 
 constexpr const char* shadow_maps_glsl = R"(
 #include "shaders/interface/shadows.glsl"
+#if GLASS
+vec3 sun_ray_filter(vec3 world) { return stub_glass.rgb; }
+#endif
 const float NO_OCCLUDER = 1.0e9;
 float sun_occluder(vec3 world) {
     vec3 d = stub_sun_direction.xyz;

@@ -52,14 +52,14 @@ class VolumetricsEpipolar : public GlTest {
         const double pixels = host.size.x * host.size.y;
         return std::sqrt(squares / pixels) / (sum / pixels);
     }
-    [[nodiscard]] double nodes_a_ray() {
+    [[nodiscard]] double a_ray(gl::Work work) {
         host.count_work = true;
         settings.technique = "epipolar";
-        const auto work = host.render(settings).work;
+        const auto counts = host.render(settings).work;
         host.count_work = false;
-        return static_cast<double>(work.at("volumetrics/epipolar")[int(gl::Work::tree_nodes)]) /
-               (host.size.x * host.size.y);
+        return static_cast<double>(counts.at("volumetrics/epipolar")[int(work)]) / (host.size.x * host.size.y);
     }
+    [[nodiscard]] double nodes_a_ray() { return a_ray(gl::Work::tree_nodes); }
 };
 
 // On the screen, on its border, beside it, behind the eye; the same for what travels the other way.
@@ -96,6 +96,23 @@ TEST_F(VolumetricsEpipolar, UnshadowedItIsTheClosedForm) {
             EXPECT_NEAR(found.scattering.at(x, y)[0], march.scattering.at(x, y)[0],
                         1e-3 * march.scattering.at(x, y)[0]);
     EXPECT_LE(nodes_a_ray(), 2 * 3.0) << "one node for each light and segment";
+}
+
+// With more steps allowed than any ray needs: one of a ray in one medium or along a layer, and few where it leaves
+// haze for fog.
+TEST_F(VolumetricsEpipolar, TakesAsManyStepsAsMediaNeed) {
+    settings.march.steps = 64;
+    host.shadows = 3;
+    EXPECT_EQ(a_ray(gl::Work::medium_samples), 1) << "homogeneous";
+    EXPECT_LT(error(), 0.01);
+    host.global.push_back(
+        {.sigma_s = glm::vec3(0.2F), .sigma_a = glm::vec3(0.1F), .height = true, .base = -1, .falloff = 1.5F});
+    const double mixed = a_ray(gl::Work::medium_samples);
+    EXPECT_GT(mixed, 1.5);
+    EXPECT_LT(mixed, 32);
+    EXPECT_LT(error(), 0.01);
+    settings.march.steps = 1;
+    EXPECT_GT(error(), 0.02) << "it was no more than needed";
 }
 
 TEST_F(VolumetricsEpipolar, RaysAlongTheSunlightAreLit) {

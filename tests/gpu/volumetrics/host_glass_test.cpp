@@ -63,6 +63,19 @@ TEST_F(VolumetricsHostGlass, ColoursSunAndLampsAndNothingElse) {
     EXPECT_EQ(lit.pixels, scattering().pixels) << "the sky's light comes through no glass";
 }
 
+TEST_F(VolumetricsHostGlass, EpipolarAsksNoneOfTheRaysWhoseSunlightIsClear) {
+    host.global = {{.sigma_s = glm::vec3(0.05F)}};
+    host.has_sun = true;
+    host.count_work = true;
+    settings.technique = "epipolar";
+    const auto lookups = [&](glm::vec3 glass) {
+        host.glass = glass;
+        return host.render(settings).work.at("volumetrics/epipolar")[int(gl::Work::shadow_lookups)];
+    };
+    EXPECT_EQ(lookups(glm::vec3(1)), 0U);
+    EXPECT_GT(lookups({1, 1, 0.5F}), 0U);
+}
+
 TEST_F(VolumetricsHostGlass, IsNotInThePassesOfTechniquesThatDoNotAsk) {
     host.global = {{.sigma_s = glm::vec3(0.05F)}};
     host.has_sun = true;

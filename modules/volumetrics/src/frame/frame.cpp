@@ -79,7 +79,8 @@ std::optional<int> standard_axis(const Frame& frame, const std::string& define) 
 /// One program serves many frames with glass, see is_glass_permutation.
 void make_glass_permutation(Permutation& p) {
     const auto lit = [&](const char* define) { return p.contains(define) && p[define] != 0; };
-    if (!lit("HAS_SUN") && !lit("LAMPS")) p["GLASS"] = 0;
+    const bool told = p.contains("HAS_SUN") || p.contains("LAMPS");
+    if (told && !lit("HAS_SUN") && !lit("LAMPS")) p["GLASS"] = 0;
     if (p["GLASS"] == 0) return;
     const auto at_least = [&](const char* define, int value) {
         if (p.contains(define)) p[define] = std::max(p[define], value);

@@ -21,7 +21,7 @@ namespace {
 
 const ProgramDesc lines_program{.name = "volumetrics/epipolar_lines",
                                 .stages = {{GL_COMPUTE_SHADER, "shaders/volumetrics/light/epipolar_lines.comp"}},
-                                .axes = {{"COUNT_WORK", {0, 1}}},
+                                .axes = {{"GLASS", {0, 1}}, {"COUNT_WORK", {0, 1}}},
                                 .valid = {}};
 const ProgramRegistry::Registration lines_registration(lines_program);
 
@@ -79,7 +79,7 @@ TextureRef add_lines(Frame& frame, const EpipolarPlan& plan, TextureRef table, T
     }
     TextureRef nodes = frame.passes.create("volumetrics/epipolar_nodes",
                                            {.format = GL_RG32F, .size = {texels_a_row, rows_of(plan.nodes), 1}});
-    const gl::Program& lines = frame.program(lines_program);
+    const gl::Program& lines = frame.program(lines_program, {{"GLASS", frame.media.through_glass}});
     frame.add({.name = "volumetrics/epipolar_lines",
                .program = lines,
                .sources = {{table}, {cells_seen}},
