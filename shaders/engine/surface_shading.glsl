@@ -66,7 +66,7 @@ void add_lamps(Surface s, inout Reflected sum) {
     count_work(WORK_LIGHT_EVALUATIONS, range.count);
     for (uint i = 0u; i < range.count; ++i) {
         uint index = cluster_lights[range.offset + i];
-        GpuLight light = lights[index];
+        GpuLight light = light_data(index);
         vec3 offset = light.position_range.xyz - s.world;
         float d2 = dot(offset, offset);
         float d = sqrt(d2);

@@ -290,7 +290,7 @@ layout(local_size_x = 1) in;
 layout(std430, binding = 13) writeonly buffer Results { float results[]; };
 void main() {
     results[0] = sun_shadow_surface(vec3(0.0), vec3(0.0), 1.0) + sun_shadow_volume(vec3(0.0), 1.0);
-    results[1] = light_shadow_surface(lights[0], vec3(0.0), vec3(0.0)) + light_shadow_volume(lights[0], vec3(0.0));
+    results[1] = light_shadow_surface(light_data(0u), vec3(0.0), vec3(0.0)) + light_shadow_volume(light_data(0u), vec3(0.0));
 })")}},
                               "shadows off");
     GLint uniforms = -1;

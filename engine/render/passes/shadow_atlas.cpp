@@ -330,7 +330,7 @@ int ShadowAtlasPass::first_tile(std::size_t scene_light_index) const {
 void ShadowAtlasPass::bind() const {
     glBindTextureUnit(UNIT_SHADOW_ATLAS, atlas_.id());
     glBindSampler(UNIT_SHADOW_ATLAS, texels_.id());
-    if (tile_buffer_) tile_buffer_.bind(GL_SHADER_STORAGE_BUFFER, BINDING_SHADOW_TILES);
+    if (tile_buffer_) tile_buffer_.bind(IMAGE_SHADOW_TILES);
     if (!glass_) return;
     glBindTextureUnit(UNIT_LAMP_GLASS, glass_.id());
     glBindSampler(UNIT_LAMP_GLASS, texels_.id());

@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "engine/gl/buffer.h"
 #include "engine/gl/sampler.h"
+#include "engine/gl/texel_buffer.h"
 #include "engine/gl/texture.h"
 #include "engine/graph/pass_list.h"
 #include "engine/render/atlas_allocator.h"
@@ -37,7 +37,7 @@ class ShadowAtlasPass {
     [[nodiscard]] int first_tile(std::size_t scene_light_index) const;
     /// Tiles that this frame's pass list has drawn.
     [[nodiscard]] int tiles_drawn() const { return tiles_drawn_; }
-    /// Binds textures, samplers and tile buffer (UNIT_SHADOW_ATLAS, UNIT_LAMP_GLASS, BINDING_SHADOW_TILES) for
+    /// Binds textures, samplers and tile buffer (UNIT_SHADOW_ATLAS, UNIT_LAMP_GLASS, IMAGE_SHADOW_TILES) for
     /// shadow_lookup.glsl and glass_lookup.glsl.
     void bind() const;
 
@@ -79,7 +79,7 @@ class ShadowAtlasPass {
     gl::Sampler texels_;
     gl::Texture atlas_, glass_;
     ShadowGlass glass_filter_;
-    gl::Buffer tile_buffer_;
+    gl::TexelBuffer tile_buffer_;
     AtlasAllocator allocator_;
     std::vector<LightTiles> lights_;  // one per scene light
     std::vector<shared::ShadowTile> tile_data_;
