@@ -86,14 +86,16 @@ void ClusterPass::reserve(const FrameContext& frame, const LightSet& lights) {
     grow(visible_, sizeof(shared::VisibleLightsHeader) + lights.lights().size() * sizeof(shared::VisibleLight),
          "visible lights");
     const glm::uvec4 size = frame.frame.cluster_size;
-    grow(rows_, std::size_t{size.x + size.y + size.z} * ((size.w + 31) / 32) * sizeof(std::uint32_t), "visible rows");
+    grow(rows_, std::size_t{size.x + size.y + size.z} * ((size.w + 31) / 32) * sizeof(std::uint32_t),
+         "visible rows");
 }
 
 ClusterPass::Output ClusterPass::add(FrameContext& frame, const LightSet& lights, TextureRef pyramid) {
     reserve(frame, lights);
     const auto in_view = static_cast<std::size_t>(frame.facts.local_lights_in_view);
-    // A round for each lamp, and one in which the media dim it.
-    if (const std::size_t most = gl::loop_rounds() / 2; in_view > most && !warned_) {
+    // Of surface_shading.glsl: for each 32 lamps one, and for each of them one that finds it, one that adds it, and
+    // one in which the media dim it.
+    if (const std::size_t most = gl::loop_rounds() / 97 * 32; in_view > most && !warned_) {
         warned_ = true;
         spdlog::warn(
             "lamps: {} in view; this driver ends a shader's loops early: where more than {} overlap, surfaces lack "
