@@ -95,7 +95,7 @@ ClusterPass::Output ClusterPass::add(FrameContext& frame, const LightSet& lights
     const auto in_view = static_cast<std::size_t>(frame.facts.local_lights_in_view);
     // Of surface_shading.glsl: for each 32 lamps one, and for each of them one that finds it, one that adds it, and
     // one in which the media dim it.
-    if (const std::size_t most = gl::loop_rounds() / 97 * 32; in_view > most && !warned_) {
+    if (const std::size_t most = std::size_t{gl::loop_rounds()} / 97 * 32; in_view > most && !warned_) {
         warned_ = true;
         spdlog::warn(
             "lamps: {} in view; this driver ends a shader's loops early: where more than {} overlap, surfaces lack "
