@@ -18,10 +18,10 @@ bool passes(const GpuScene& scene, const Instance& instance, DrawList::Filter fi
     switch (filter) {
         case DrawList::Filter::all:
             return !transparent;
-        case DrawList::Filter::shadow_casters:
-            return instance.cast_shadow && !transparent;
         case DrawList::Filter::static_shadow_casters:
             return instance.cast_shadow && !transparent && !instance.dynamic;
+        case DrawList::Filter::moving_shadow_casters:
+            return instance.cast_shadow && !transparent && instance.dynamic;
         case DrawList::Filter::glass:
             return instance.cast_shadow && transparent;
         case DrawList::Filter::static_glass:

@@ -15,7 +15,7 @@ namespace tyndall {
 class DrawList {
   public:
     /// Materials with alpha_blend are left out but for glass: those of them that cast shadows.
-    enum class Filter { all, shadow_casters, static_shadow_casters, glass, static_glass };
+    enum class Filter { all, static_shadow_casters, moving_shadow_casters, glass, static_glass };
     /// Culls on the CPU (conservative boxes) and uploads commands.
     void build(const GpuScene& scene, const Frustum& frustum, Filter filter);
     /// Several views at once (shadow tiles): view i's commands are drawn by draw(i, …).

@@ -58,7 +58,7 @@ void LightSet::upload() {
 }
 
 void LightSet::bind() const {
-    buffer_.bind(GL_SHADER_STORAGE_BUFFER, BINDING_LIGHTS);
+    buffer_.bind(IMAGE_LIGHTS);
 }
 
 }  // namespace tyndall

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "engine/gl/buffer.h"
+#include "engine/gl/texel_buffer.h"
 #include "engine/render/lamps.h"
 #include "shaders/shared/lights.h"
 
@@ -27,7 +27,7 @@ class LightSet {
     void set_shadow_tiles(const std::function<int(std::size_t)>& first_tile);
     /// Sends the lamps to the GPU.
     void upload();
-    void bind() const;  ///< at BINDING_LIGHTS
+    void bind() const;  ///< at IMAGE_LIGHTS
 
     [[nodiscard]] std::span<const shared::GpuLight> lights() const { return lights_; }
     [[nodiscard]] GLuint buffer() const { return buffer_.id(); }
@@ -35,7 +35,7 @@ class LightSet {
   private:
     std::vector<shared::GpuLight> lights_;
     std::vector<std::size_t> scene_index_;  ///< of each of lights_
-    gl::Buffer buffer_;
+    gl::TexelBuffer buffer_;
 };
 
 }  // namespace tyndall

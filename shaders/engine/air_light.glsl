@@ -37,7 +37,7 @@ vec3 air_lamps(vec3 world, vec2 screen, float view_depth) {
     vec3 sum = vec3(0.0);
     for (uint i = 0u; i < range.count; ++i) {
         uint index = cluster_lights[range.offset + i];
-        GpuLight light = lights[index];
+        GpuLight light = light_data(index);
         vec3 offset = light.position_range.xyz - world;
         float d2 = dot(offset, offset);
         float d = sqrt(d2);

@@ -1,5 +1,6 @@
-// Lists of the lamps that reach each cluster, in the order of the light list. One invocation a cluster counts, takes
-// its part of the pool and writes: only where a list lies in the pool depends on scheduling, never what it holds.
+// Lists of the lamps that reach each cluster, in the order of the light list. One invocation a cluster takes part of the
+// pool for all that may reach it and writes those that do: only where a list lies in the pool depends on scheduling, never
+// what it holds.
 #include "shaders/engine/frame_block.glsl"
 #include "shaders/engine/light_reach.glsl"
 #include "shaders/engine/visible_lights.glsl"
@@ -34,9 +35,6 @@ Cluster cluster_of(uint id) {
 }
 
 bool reaches(VisibleLight light, Cluster cluster) {
-    uvec3 lo = light.index_box.yzw & 0xffffu;
-    uvec3 hi = light.index_box.yzw >> 16;
-    if (any(lessThan(cluster.index, lo)) || any(greaterThan(cluster.index, hi))) return false;
     if (!cluster.bounded) return true;
     vec3 gap = max(abs(light.sphere.xyz - cluster.center) - cluster.half_size, 0.0);
     if (dot(gap, gap) > light.sphere.w * light.sphere.w) return false;
@@ -45,30 +43,33 @@ bool reaches(VisibleLight light, Cluster cluster) {
                              cluster.center, length(cluster.half_size));
 }
 
-bool reached(uint i, Cluster cluster) { return i < visible_header.count && reaches(visible_lights[i], cluster); }
+// Lamps 32 word to 32 word + 31 whose box holds the cluster.
+uint may_reach(uint word, uvec3 index) {
+    uvec3 size = frame.cluster_size.xyz;
+    uint words = row_words(frame.cluster_size.w);
+    return visible_rows[index.x * words + word] & visible_rows[(size.x + index.y) * words + word] &
+           visible_rows[(size.x + size.y + index.z) * words + word];
+}
 
 void main() {
     uint id = gl_GlobalInvocationID.x;
     uvec3 size = frame.cluster_size.xyz;
     if (id >= size.x * size.y * size.z) return;
     Cluster cluster = cluster_of(id);
-    uint visible = visible_header.count;
-    uint count = 0u;
-    // Four a round: llvmpipe ends a shader's loops after 65,535 rounds in all.
-    for (uint i = 0u; i < visible; i += 4u) {
-        count += uint(reached(i, cluster)) + uint(reached(i + 1u, cluster)) + uint(reached(i + 2u, cluster)) +
-                 uint(reached(i + 3u, cluster));
-    }
-    if (count == 0u) {
+    uint words = row_words(visible_header.count);
+    uint most = 0u;
+    for (uint word = 0u; word < words; ++word) most += uint(bitCount(may_reach(word, cluster.index)));
+    if (most == 0u) {
         clusters[id] = ClusterRange(0u, 0u);
         return;
     }
-    uint offset = atomicAdd(visible_header.pool_used, count);
-    clusters[id] = ClusterRange(offset, count);
-    for (uint i = 0u; i < visible; i += 4u) {
-        if (reached(i, cluster)) cluster_lights[offset++] = visible_lights[i].index_box.x;
-        if (reached(i + 1u, cluster)) cluster_lights[offset++] = visible_lights[i + 1u].index_box.x;
-        if (reached(i + 2u, cluster)) cluster_lights[offset++] = visible_lights[i + 2u].index_box.x;
-        if (reached(i + 3u, cluster)) cluster_lights[offset++] = visible_lights[i + 3u].index_box.x;
+    uint offset = atomicAdd(visible_header.pool_used, most);
+    uint count = 0u;
+    for (uint word = 0u; word < words; ++word) {
+        for (uint bits = may_reach(word, cluster.index); bits != 0u; bits &= bits - 1u) {
+            VisibleLight light = visible_lights[32u * word + uint(findLSB(bits))];
+            if (reaches(light, cluster)) cluster_lights[offset + count++] = light.index_box.x;
+        }
     }
+    clusters[id] = ClusterRange(offset, count);
 }

@@ -59,7 +59,7 @@ vec3 sun_ray_glass(vec3 world) {
 // A lamp's a is 1 - w / far at the distance w along the tile's axis; a further sun's is its map's depth.
 vec3 light_glass(GpuLight light, vec3 world) {
     if (light.cone_shadow.w == 0.0 || light.cone_shadow.z < 0.0) return vec3(1.0);
-    ShadowTile tile = shadow_tiles[shadow_tile_of(light, world)];
+    ShadowTile tile = shadow_tile(light, world);
     vec4 clip = tile.world_to_clip * vec4(world, 1.0);
     if (tile.depth.w == 0.0 || clip.w <= tile.depth.x || beside_sun_tile(light, clip)) return vec3(1.0);
     bool sun = int(light.direction_type.w) == LIGHT_SUN;

@@ -1,5 +1,6 @@
 // The lamps whose reach meets the view frustum and is not hidden behind what the depth buffer holds, compacted in the
-// order of the light list by prefix sums in one workgroup, so that the result does not depend on scheduling.
+// order of the light list by prefix sums in one workgroup, so that the result does not depend on scheduling. The rows of
+// clusters that each may reach are marked.
 #include "shaders/engine/light_data.glsl"
 #include "shaders/engine/light_reach.glsl"
 #include "shaders/engine/visible_lights.glsl"
@@ -36,6 +37,12 @@ uint packed_range(float lo, float hi, uint count) {
     return range.x | (range.y << 16);
 }
 
+// Of the rows from `first` on those that a packed range holds.
+void mark_rows(uint first, uint range, uint place, uint words) {
+    for (uint row = range & 0xffffu; row <= range >> 16; ++row)
+        atomicOr(visible_rows[(first + row) * words + place / 32u], 1u << (place % 32u));
+}
+
 shared uint sums[GROUP];
 shared uint hidden_count;
 
@@ -66,7 +73,7 @@ void main() {
         bool visible = index < light_count;
         VisibleLight record;
         if (visible) {
-            GpuLight light = lights[index];
+            GpuLight light = light_data(index);
             bool spot = light.direction_type.w == float(LIGHT_SPOT);
             float range = light.position_range.w;
             float cosine = spot ? cone_cosine(light.cone_shadow.xy) : -1.0;
@@ -92,7 +99,14 @@ void main() {
                                      uint(cluster_slice(bounds.near)) | (uint(cluster_slice(bounds.far)) << 16));
         }
         uint place = prefix_sum(visible ? 1u : 0u);
-        if (visible) visible_lights[found + place - 1u] = record;
+        if (visible) {
+            uint at = found + place - 1u;
+            uvec3 size = frame.cluster_size.xyz;
+            visible_lights[at] = record;
+            mark_rows(0u, record.index_box.y, at, row_words(light_count));
+            mark_rows(size.x, record.index_box.z, at, row_words(light_count));
+            mark_rows(size.x + size.y, record.index_box.w, at, row_words(light_count));
+        }
         found += sums[GROUP - 1];
         barrier();
     }

@@ -5,10 +5,16 @@
 #include "shaders/engine/frame_block.glsl"
 #include "shaders/shared/lights.h"
 
-layout(std430, binding = BINDING_LIGHTS) readonly buffer LightBuffer { GpuLight lights[]; };
+layout(rgba32f, binding = IMAGE_LIGHTS) readonly uniform imageBuffer light_texels;
 layout(std430, binding = BINDING_CLUSTERS) readonly buffer ClusterBuffer { ClusterRange clusters[]; };
 layout(std430, binding = BINDING_CLUSTER_LIGHTS) readonly buffer ClusterLightBuffer { uint cluster_lights[]; };
 layout(binding = UNIT_AMBIENT) uniform samplerCube ambient_cube;  // irradiance / pi per direction, mipped to 1x1
+
+GpuLight light_data(uint index) {
+    int i = 4 * int(index);
+    return GpuLight(imageLoad(light_texels, i), imageLoad(light_texels, i + 1), imageLoad(light_texels, i + 2),
+                    imageLoad(light_texels, i + 3));
+}
 
 // Slices are logarithmic in view depth. Slice 0 also holds everything nearer than the cluster near plane, the last one
 // everything farther than the far plane.

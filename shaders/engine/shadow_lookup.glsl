@@ -32,7 +32,7 @@
 layout(binding = UNIT_SUN_CASCADES) uniform sampler2DArray sun_cascade_maps;
 layout(binding = UNIT_SUN_STATIC) uniform sampler2D sun_static_map;
 layout(binding = UNIT_SHADOW_ATLAS) uniform sampler2D shadow_atlas;
-layout(std430, binding = BINDING_SHADOW_TILES) readonly buffer ShadowTileBuffer { ShadowTile shadow_tiles[]; };
+layout(rgba32f, binding = IMAGE_SHADOW_TILES) readonly uniform imageBuffer shadow_tile_texels;
 
 // A plane changes its depth by at most so many texels from one to the next: what changes more is an edge.
 const float SHADOW_STEEPEST = 8.0;
@@ -180,9 +180,23 @@ bool is_point(GpuLight light) { return int(light.direction_type.w) == LIGHT_POIN
 bool beside_sun_tile(GpuLight light, vec4 clip) {
     return int(light.direction_type.w) == LIGHT_SUN && any(greaterThan(abs(clip.xy), clip.ww));
 }
-uint shadow_tile_of(GpuLight light, vec3 world) {
+// Where the map looks that holds a point.
+vec3 tile_axis(GpuLight light, vec3 world) {
+    if (!is_point(light)) return light.direction_type.xyz;
+    int face = cube_face(world - light.position_range.xyz);
+    vec3 axis = vec3(equal(ivec3(face >> 1), ivec3(0, 1, 2)));
+    return (face & 1) == 0 ? axis : -axis;
+}
+// World size (m) of a texel at 1 m, alike in all tiles of a light.
+float shadow_texel(GpuLight light) { return imageLoad(shadow_tile_texels, 6 * int(light.cone_shadow.z) + 5).z; }
+
+// The tile of a light that has a shadow which holds a point.
+ShadowTile shadow_tile(GpuLight light, vec3 world) {
     int face = is_point(light) ? cube_face(world - light.position_range.xyz) : 0;
-    return uint(int(light.cone_shadow.z) + face);
+    int i = 6 * (int(light.cone_shadow.z) + face);
+    return ShadowTile(mat4(imageLoad(shadow_tile_texels, i), imageLoad(shadow_tile_texels, i + 1),
+                           imageLoad(shadow_tile_texels, i + 2), imageLoad(shadow_tile_texels, i + 3)),
+                      imageLoad(shadow_tile_texels, i + 4), imageLoad(shadow_tile_texels, i + 5));
 }
 
 // A clip position in its tile. `texel`: m. A plane is one in the perspective of a map, too.
@@ -216,15 +230,14 @@ vec2 tile_lit(ShadowTile tile, MapPoint p, vec2 tap) {
 // and beside a sun's map.
 float light_shadow_surface(GpuLight light, vec3 world, vec3 normal) {
     if (light.cone_shadow.z < 0.0) return 1.0;
-    ShadowTile tile = shadow_tiles[shadow_tile_of(light, world)];
-    // Clip w is the distance along the tile's axis.
-    mat4 m = tile.world_to_clip;
-    vec4 w_row = vec4(m[0].w, m[1].w, m[2].w, m[3].w);
-    float texel = tile.depth.z * max(dot(w_row, vec4(world, 1.0)), 0.0);
-    float cos_axis = dot(normal, is_point(light) ? w_row.xyz : light.direction_type.xyz);
+    vec3 axis = tile_axis(light, world);
+    bool is_sun = int(light.direction_type.w) == LIGHT_SUN;
+    float along = is_sun ? SUN_LAMP_DISTANCE : max(dot(world - light.position_range.xyz, axis), 0.0);
+    float texel = shadow_texel(light) * along;
+    float cos_axis = dot(normal, axis);
     float offset = shadow_normal_offset(texel, cos_axis);
     vec3 p = world + normal * offset;
-    tile = shadow_tiles[shadow_tile_of(light, p)];
+    ShadowTile tile = shadow_tile(light, p);
     vec4 clip = tile.world_to_clip * vec4(p, 1.0);
     if (tile.depth.w == 0.0 || clip.w <= tile.depth.x || beside_sun_tile(light, clip)) return 1.0;
     MapPoint point = tile_point(light, tile, clip, texel, cos_axis, offset);
@@ -237,7 +250,7 @@ float light_shadow_surface(GpuLight light, vec3 world, vec3 normal) {
 // One lookup, for points in the air. The same limits.
 float light_shadow_volume(GpuLight light, vec3 world) {
     if (light.cone_shadow.z < 0.0) return 1.0;
-    ShadowTile tile = shadow_tiles[shadow_tile_of(light, world)];
+    ShadowTile tile = shadow_tile(light, world);
     vec4 clip = tile.world_to_clip * vec4(world, 1.0);
     if (tile.depth.w == 0.0 || clip.w <= tile.depth.x || beside_sun_tile(light, clip)) return 1.0;
     MapPoint point = tile_point(light, tile, clip, tile.depth.z * clip.w, 1.0, 0.0);

@@ -33,7 +33,7 @@ float sun_shadow_occluder(vec3 world) {
 // A lamp's depth is a + b / w at the distance w along the tile's axis; a sun's is linear.
 float light_shadow_occluder(GpuLight light, vec3 world) {
     if (light.cone_shadow.z < 0.0) return -NO_OCCLUDER;
-    ShadowTile tile = shadow_tiles[shadow_tile_of(light, world)];
+    ShadowTile tile = shadow_tile(light, world);
     vec4 clip = tile.world_to_clip * vec4(world, 1.0);
     if (tile.depth.w == 0.0 || clip.w <= 0.0 || beside_sun_tile(light, clip)) return -NO_OCCLUDER;
     MapPoint point = tile_point(light, tile, clip, tile.depth.z * clip.w, 1.0, 0.0);

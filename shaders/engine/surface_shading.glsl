@@ -61,30 +61,46 @@ void add_sun(Surface s, inout Reflected sum) {
 #endif
 
 #if HAS_LAMPS
+// Share of a lamp's intensity that arrives unshadowed on the lit side of a surface, 1/m2.
+float surface_lamp_share(Surface s, GpuLight light, out vec3 to_light, out float d) {
+    vec3 offset = light.position_range.xyz - s.world;
+    float d2 = dot(offset, offset);
+    d = sqrt(d2);
+    to_light = offset / max(d, 1e-6);
+    float attenuation = lamp_attenuation(d2, light.intensity_radius.w, 1.0 / light.position_range.w) *
+                        spot_cone(-dot(to_light, light.direction_type.xyz), light.cone_shadow.xy);
+    return dot(s.normal, to_light) > 0.0 ? attenuation : 0.0;
+}
+
+// Of each 32 lamps those that light the surface are found first: neighbouring pixels, which run together, then look up the
+// shadows of as many lamps as light one of them, not of all that are listed.
 void add_lamps(Surface s, inout Reflected sum) {
     ClusterRange range = cluster_at(s.uv, s.view_depth);
     count_work(WORK_LIGHT_EVALUATIONS, range.count);
-    for (uint i = 0u; i < range.count; ++i) {
-        uint index = cluster_lights[range.offset + i];
-        GpuLight light = lights[index];
-        vec3 offset = light.position_range.xyz - s.world;
-        float d2 = dot(offset, offset);
-        float d = sqrt(d2);
-        vec3 to_light = offset / max(d, 1e-6);
-        float attenuation = lamp_attenuation(d2, light.intensity_radius.w, 1.0 / light.position_range.w) *
-                            spot_cone(-dot(to_light, light.direction_type.xyz), light.cone_shadow.xy);
-        if (attenuation <= 0.0 || dot(s.normal, to_light) <= 0.0) continue;
-        vec3 illuminance = light.intensity_radius.rgb * attenuation;
+    for (uint first = 0u; first < range.count; first += 32u) {
+        uint count = min(range.count - first, 32u);
+        uint reaching = 0u;
+        vec3 to_light;
+        float d;
+        for (uint i = 0u; i < count; ++i) {
+            GpuLight light = light_data(cluster_lights[range.offset + first + i]);
+            if (surface_lamp_share(s, light, to_light, d) > 0.0) reaching |= 1u << i;
+        }
+        for (; reaching != 0u; reaching &= reaching - 1u) {
+            uint index = cluster_lights[range.offset + first + uint(findLSB(reaching))];
+            GpuLight light = light_data(index);
+            vec3 illuminance = light.intensity_radius.rgb * surface_lamp_share(s, light, to_light, d);
 #if SHADOWS
-        illuminance *= light_shadow_surface(light, s.world, s.normal);
+            illuminance *= light_shadow_surface(light, s.world, s.normal);
 #endif
 #if GLASS
-        illuminance *= light_glass(light, s.world);
+            illuminance *= light_glass(light, s.world);
 #endif
 #if MEDIUM_TRANSMITTANCE
-        illuminance *= medium_lamp_transmittance(index, s.world, to_light, d);
+            illuminance *= medium_lamp_transmittance(index, s.world, to_light, d);
 #endif
-        add_light(s, to_light, illuminance, sum);
+            add_light(s, to_light, illuminance, sum);
+        }
     }
 }
 #endif

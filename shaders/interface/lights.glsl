@@ -23,6 +23,6 @@ int light_slice(float view_depth) { return cluster_slice(view_depth); }
 float light_slice_end(int slice) { return cluster_slice_end(slice); }
 ClusterRange lights_in_slice(vec2 uv, int slice) { return cluster_in(uv, slice); }
 uint light_index(uint i) { return cluster_lights[i]; }
-GpuLight light_at(uint index) { return lights[index]; }
+GpuLight light_at(uint index) { return light_data(index); }
 
 #endif

@@ -9,21 +9,25 @@
 #define BINDING_VOLUMETRICS 1
 #define BINDING_NOISE 2  // volumetrics: noise_offset.glsl
 
-// Storage buffers. 1 to 4 are what lights are read from (shaders/interface): bound together for every lit pass.
+// Storage buffers. 1 and 2, like the images below, are what lights are read from (shaders/interface): bound together for
+// every lit pass.
 #define BINDING_PARTICLES 0           // transparent particles
 #define BINDING_SPRITES 0             // volumetrics: billboards, particles
 #define BINDING_MEDIA_TILES 0         // volumetrics: inject_media
 #define BINDING_SCREEN_MEDIA 0        // volumetrics: ray_media.glsl
 #define BINDING_UNFINISHED 0          // volumetrics: reference_lamps
-#define BINDING_LIGHTS 1
-#define BINDING_CLUSTERS 2
-#define BINDING_CLUSTER_LIGHTS 3
-#define BINDING_SHADOW_TILES 4
+#define BINDING_CLUSTERS 1
+#define BINDING_CLUSTER_LIGHTS 2
+#define BINDING_VISIBLE_ROWS 3        // light culling, clusters
 #define BINDING_LAMP_VOLUMES 5        // whatever is lit through local media
 #define BINDING_VISIBLE_LIGHTS 5      // light culling, clusters
 #define BINDING_PREVIOUS_INSTANCES 5  // geometry: G-buffer with motion
 #define BINDING_LOCAL_MEDIA 6         // volumetrics: local_media.glsl
 #define BINDING_WORK 7                // every pass that counts its work
+
+// Image units. 0 to 3 are a pass's own.
+#define IMAGE_LIGHTS 6
+#define IMAGE_SHADOW_TILES 7
 
 // Texture units. 0 to 7 are a pass's own: a geometry pass's material is 0 to 4, the sky it mirrors 5. A pass that
 // includes shaders/volumetrics/frame/apply.glsl leaves 6 and 7 to it, one of local media 4 and 5 to their grids.

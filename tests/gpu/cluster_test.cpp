@@ -212,7 +212,9 @@ TEST_F(Cluster, LampsBehindAWallAreLeftOutThoseBesideItAreNot) {
     const Lists lists = run(depth);
     EXPECT_EQ(lists.header.count, 3u);
     EXPECT_EQ(lists.header.occluded, 1u);
-    const std::set<std::uint32_t> listed(lists.pool.begin(), lists.pool.end());
+    std::set<std::uint32_t> listed;
+    for (std::size_t c = 0; c < lists.ranges.size(); ++c)
+        for (const std::uint32_t lamp : lists.of(c)) listed.insert(lamp);
     EXPECT_EQ(listed, (std::set<std::uint32_t>{1, 2, 3}));
 }
 

@@ -214,9 +214,11 @@ TEST_F(ShadowAtlas, OnlyTilesThatSeeTheChangeAreDrawn) {
     rig.scene.nodes[6].translation.y = 0.2f;  // still before the +X face only
     rig.frame();
     EXPECT_EQ(rig.atlas.tiles_drawn(), 1);
+    EXPECT_EQ(rig.atlas.triangles_drawn(), 12u) << "of the moving box alone";
     rig.scene.nodes[6].translation.y = 100;  // gone: its last shadow must go, too
     rig.frame();
     EXPECT_EQ(rig.atlas.tiles_drawn(), 1);
+    EXPECT_EQ(rig.atlas.triangles_drawn(), 0u);
     EXPECT_EQ(rig.look_up(Lookup::light_volume, std::span(&behind, 1))[0], 1);
 
     rig.scene.nodes[7].translation.x = 0.1f;  // the point light

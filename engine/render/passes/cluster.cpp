@@ -37,7 +37,7 @@ std::size_t cells(float lo, float hi, std::uint32_t count) {
 }
 
 void grow(gl::Buffer& buffer, std::size_t bytes, const char* label) {
-    if (buffer.size() < bytes) buffer = gl::Buffer(bytes + bytes / 4, label);
+    if (buffer.size() < bytes) buffer = gl::Buffer(bytes + bytes / 16 * 4, label);
 }
 
 std::size_t cluster_count(const shared::FrameData& frame) {
@@ -85,13 +85,17 @@ void ClusterPass::reserve(const FrameContext& frame, const LightSet& lights) {
     grow(ranges_, cluster_count(frame.frame) * sizeof(shared::ClusterRange), "cluster ranges");
     grow(visible_, sizeof(shared::VisibleLightsHeader) + lights.lights().size() * sizeof(shared::VisibleLight),
          "visible lights");
+    const glm::uvec4 size = frame.frame.cluster_size;
+    grow(rows_, std::size_t{size.x + size.y + size.z} * ((size.w + 31) / 32) * sizeof(std::uint32_t),
+         "visible rows");
 }
 
 ClusterPass::Output ClusterPass::add(FrameContext& frame, const LightSet& lights, TextureRef pyramid) {
     reserve(frame, lights);
     const auto in_view = static_cast<std::size_t>(frame.facts.local_lights_in_view);
-    // A round for each lamp, and one in which the media dim it.
-    if (const std::size_t most = gl::loop_rounds() / 2; in_view > most && !warned_) {
+    // Of surface_shading.glsl: for each 32 lamps one, and for each of them one that finds it, one that adds it, and
+    // one in which the media dim it.
+    if (const std::size_t most = std::size_t{gl::loop_rounds()} / 97 * 32; in_view > most && !warned_) {
         warned_ = true;
         spdlog::warn(
             "lamps: {} in view; this driver ends a shader's loops early: where more than {} overlap, surfaces lack "
@@ -100,6 +104,7 @@ ClusterPass::Output ClusterPass::add(FrameContext& frame, const LightSet& lights
     }
     BufferRef all = frame.passes.import_buffer("lights", lights.buffer());
     BufferRef visible = frame.passes.import_buffer("visible lights", visible_.id());
+    BufferRef rows = frame.passes.import_buffer("visible rows", rows_.id());
     Output output{frame.passes.import_buffer("cluster ranges", ranges_.id()),
                   frame.passes.import_buffer("cluster light lists", pool_.id())};
 
@@ -109,10 +114,13 @@ ClusterPass::Output ClusterPass::add(FrameContext& frame, const LightSet& lights
             pass.read(all);
             pass.sample(pyramid);
             visible = pass.write(visible);
+            rows = pass.write(rows);
         },
         [this, &frame, &lights, pyramid](const PassContext& pass) {
             lights.bind();
             visible_.bind(GL_SHADER_STORAGE_BUFFER, BINDING_VISIBLE_LIGHTS);
+            rows_.clear_uint(0);
+            rows_.bind(GL_SHADER_STORAGE_BUFFER, BINDING_VISIBLE_ROWS);
             if (pyramid) glBindTextureUnit(0, pass.texture(pyramid).id);
             frame.shaders.get(cull_program, {{"OCCLUSION", pyramid ? 1 : 0}}).use();
             glDispatchCompute(1, 1, 1);
@@ -121,12 +129,14 @@ ClusterPass::Output ClusterPass::add(FrameContext& frame, const LightSet& lights
         "cluster",
         [&](PassBuilder& pass) {
             pass.read(visible);
+            pass.read(rows);
             visible = pass.write(visible);
             output.ranges = pass.write(output.ranges);
             output.lights = pass.write(output.lights);
         },
         [this, &frame](const PassContext&) {
             visible_.bind(GL_SHADER_STORAGE_BUFFER, BINDING_VISIBLE_LIGHTS);
+            rows_.bind(GL_SHADER_STORAGE_BUFFER, BINDING_VISIBLE_ROWS);
             bind();
             frame.shaders.get(cluster_program).use();
             glDispatchCompute(static_cast<GLuint>((cluster_count(frame.frame) + 63) / 64), 1, 1);

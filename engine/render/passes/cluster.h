@@ -25,7 +25,7 @@ class ClusterPass {
 
   private:
     void reserve(const FrameContext& frame, const LightSet& lights);
-    gl::Buffer visible_, ranges_, pool_;
+    gl::Buffer visible_, rows_, ranges_, pool_;
     bool warned_ = false;
 };
 

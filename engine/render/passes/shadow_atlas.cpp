@@ -37,6 +37,7 @@ ShadowAtlasPass::ShadowAtlasPass(ShaderLibrary& shaders)
 
 void ShadowAtlasPass::release(FrameContext& context, const char* reason) {
     atlas_ = {};
+    still_ = {};
     glass_ = {};
     tile_buffer_ = {};
     draws_ = {};
@@ -186,31 +187,64 @@ void ShadowAtlasPass::find_redraws(const FrameContext& context, std::span<const 
             key.add(data.world_to_clip);
             key.add(data.rect);
             key.add(occluders.static_key());
-            key.add(near_moving ? occluders.moving_key(Frustum::from(data.world_to_clip)) : ShadowKey().value());
+            const std::uint64_t still_key = key.value();
+            const std::uint64_t moving_key =
+                near_moving ? occluders.moving_key(Frustum::from(data.world_to_clip)) : 0;
+            if (moving_key != 0) key.add(moving_key);
             light.tiles[face].key = key.value();
-            if (key.value() != light.tiles[face].drawn_key) redraws_.push_back({i, face, key.value(), data});
+            if (key.value() != light.tiles[face].drawn_key)
+                redraws_.push_back({i, face, key.value(), data, still_key, moving_key != 0});
         }
     }
 }
 
-void ShadowAtlasPass::draw(const PassContext& pass, const GpuScene& gpu) {
+void ShadowAtlasPass::draw_casters(const GpuScene& gpu, std::span<const Redraw> tiles, DrawList::Filter casters) {
     std::vector<Frustum> frusta;
-    for (const Redraw& redraw : redraws_) frusta.push_back(Frustum::from(redraw.data.world_to_clip));
-    draws_.build(gpu, frusta, DrawList::Filter::shadow_casters);
+    for (const Redraw& redraw : tiles) frusta.push_back(Frustum::from(redraw.data.world_to_clip));
+    draws_.build(gpu, frusta, casters);
+    for (std::size_t i = 0; i < tiles.size(); ++i) {
+        const AtlasTile& place = lights_[tiles[i].light].tiles[tiles[i].tile].place;
+        gl::apply(ShadowDepth::state());
+        glEnable(GL_SCISSOR_TEST);  // clears reach their own tile only
+        glViewport(place.origin.x, place.origin.y, place.size, place.size);
+        glScissor(place.origin.x, place.origin.y, place.size, place.size);
+        if (casters == DrawList::Filter::static_shadow_casters) glClear(GL_DEPTH_BUFFER_BIT);
+        const int view = static_cast<int>(i);
+        depth_.draw(gpu, draws_, view, tiles[i].data.world_to_clip, false);
+        triangles_drawn_ += draws_.triangle_count(view);
+    }
+}
+
+void ShadowAtlasPass::copy(std::span<const Redraw> tiles, const gl::Texture& from, const gl::Texture& to) const {
+    for (const Redraw& redraw : tiles) {
+        const auto& [origin, size] = lights_[redraw.light].tiles[redraw.tile].place;
+        glCopyImageSubData(from.id(), GL_TEXTURE_2D, 0, origin.x, origin.y, 0, to.id(), GL_TEXTURE_2D, 0, origin.x,
+                           origin.y, 0, size, size, 1);
+    }
+}
+
+// Copies stand together: between draws each would end a software rasteriser's work on the whole atlas.
+void ShadowAtlasPass::draw(const PassContext& pass, const GpuScene& gpu) {
+    const auto tile = [&](const Redraw& r) -> Tile& { return lights_[r.light].tiles[r.tile]; };
+    const auto rank = [&](const Redraw& r) {
+        const bool kept = tile(r).kept_key == r.still_key;
+        return kept ? (r.moving ? 1 : 0) : (r.moving ? 2 : 3);
+    };
+    std::ranges::stable_sort(redraws_, {}, rank);
+    const auto ranks = [&](int first, int last) {
+        return std::span(std::ranges::lower_bound(redraws_, first, {}, rank),
+                         std::ranges::upper_bound(redraws_, last, {}, rank));
+    };
+    const std::span<const Redraw> kept = ranks(0, 1), moving = ranks(1, 2), keep = ranks(2, 2), anew = ranks(2, 3);
 
     pass.bind_framebuffer();
     glClearDepthf(0);
-    for (std::size_t i = 0; i < redraws_.size(); ++i) {
-        const Redraw& redraw = redraws_[i];
-        Tile& tile = lights_[redraw.light].tiles[redraw.tile];
-        gl::apply(ShadowDepth::state());
-        glEnable(GL_SCISSOR_TEST);  // clears reach their own tile only
-        glViewport(tile.place.origin.x, tile.place.origin.y, tile.place.size, tile.place.size);
-        glScissor(tile.place.origin.x, tile.place.origin.y, tile.place.size, tile.place.size);
-        glClear(GL_DEPTH_BUFFER_BIT);
-        depth_.draw(gpu, draws_, static_cast<int>(i), redraw.data.world_to_clip, false);
-        tile.drawn_key = redraw.key;
-    }
+    copy(kept, still_, atlas_);
+    draw_casters(gpu, anew, DrawList::Filter::static_shadow_casters);
+    copy(keep, atlas_, still_);
+    draw_casters(gpu, moving, DrawList::Filter::moving_shadow_casters);
+    for (const Redraw& redraw : keep) tile(redraw).kept_key = redraw.still_key;
+    for (const Redraw& redraw : redraws_) tile(redraw).drawn_key = redraw.key;
     tiles_drawn_ = static_cast<int>(redraws_.size());
 }
 
@@ -285,6 +319,7 @@ void ShadowAtlasPass::add_glass(FrameContext& context, Output& out) {
 
 ShadowAtlasPass::Output ShadowAtlasPass::add(FrameContext& context) {
     tiles_drawn_ = 0;
+    triangles_drawn_ = 0;
     ++frame_;
     const Scene& scene = context.scene;
     if (!context.settings.shadows || !any_casts(scene)) {
@@ -295,6 +330,7 @@ ShadowAtlasPass::Output ShadowAtlasPass::add(FrameContext& context) {
     if (!atlas_ || atlas_.size().x != size || lights_.size() != scene.lights.size()) {
         atlas_ = gl::Texture({.format = GL_DEPTH_COMPONENT32F, .size = {size, size, 1}}, "shadow atlas");
         allocator_ = AtlasAllocator(size, smallest_shadow_tile);
+        still_ = {};
         lights_.assign(scene.lights.size(), {});
     }
 
@@ -308,6 +344,8 @@ ShadowAtlasPass::Output ShadowAtlasPass::add(FrameContext& context) {
     assign(scene, casters);
     number_tiles(context);
     find_redraws(context, casters);
+    if (!still_ && std::ranges::any_of(redraws_, &Redraw::moving))
+        still_ = gl::Texture(atlas_.desc(), "shadow atlas without what moves");
 
     Output out{context.passes.import("shadow atlas", atlas_),
                context.passes.import_buffer("shadow tiles", tile_buffer_.id()),
@@ -330,7 +368,7 @@ int ShadowAtlasPass::first_tile(std::size_t scene_light_index) const {
 void ShadowAtlasPass::bind() const {
     glBindTextureUnit(UNIT_SHADOW_ATLAS, atlas_.id());
     glBindSampler(UNIT_SHADOW_ATLAS, texels_.id());
-    if (tile_buffer_) tile_buffer_.bind(GL_SHADER_STORAGE_BUFFER, BINDING_SHADOW_TILES);
+    if (tile_buffer_) tile_buffer_.bind(IMAGE_SHADOW_TILES);
     if (!glass_) return;
     glBindTextureUnit(UNIT_LAMP_GLASS, glass_.id());
     glBindSampler(UNIT_LAMP_GLASS, texels_.id());

@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "engine/gl/buffer.h"
 #include "engine/gl/sampler.h"
+#include "engine/gl/texel_buffer.h"
 #include "engine/gl/texture.h"
 #include "engine/graph/pass_list.h"
 #include "engine/render/atlas_allocator.h"
@@ -18,7 +18,8 @@
 namespace tyndall {
 
 /// Shadow maps of lamps and further suns: tiles of one texture, sized by importance on screen. A tile is drawn
-/// again only when its place, its light or a caster in its view changed.
+/// again only when its place, its light or a caster in its view changed. Where something moves before a light, what
+/// stands still is kept, and only what moves is drawn over a copy of it.
 class ShadowAtlasPass {
   public:
     explicit ShadowAtlasPass(ShaderLibrary& shaders);
@@ -37,7 +38,9 @@ class ShadowAtlasPass {
     [[nodiscard]] int first_tile(std::size_t scene_light_index) const;
     /// Tiles that this frame's pass list has drawn.
     [[nodiscard]] int tiles_drawn() const { return tiles_drawn_; }
-    /// Binds textures, samplers and tile buffer (UNIT_SHADOW_ATLAS, UNIT_LAMP_GLASS, BINDING_SHADOW_TILES) for
+    /// Triangles drawn into them, glass left out.
+    [[nodiscard]] std::size_t triangles_drawn() const { return triangles_drawn_; }
+    /// Binds textures, samplers and tile buffer (UNIT_SHADOW_ATLAS, UNIT_LAMP_GLASS, IMAGE_SHADOW_TILES) for
     /// shadow_lookup.glsl and glass_lookup.glsl.
     void bind() const;
 
@@ -45,7 +48,7 @@ class ShadowAtlasPass {
     struct Tile {
         AtlasTile place;
         std::uint64_t key = 0;  ///< of this frame
-        std::uint64_t drawn_key = 0, glass_key = 0;
+        std::uint64_t drawn_key = 0, kept_key = 0, glass_key = 0;
     };
     struct LightTiles {
         int level = -1;  ///< from shadow_tile_level, of the last time in view
@@ -59,6 +62,8 @@ class ShadowAtlasPass {
         std::size_t light, tile;
         std::uint64_t key;
         shared::ShadowTile data;
+        std::uint64_t still_key = 0;  ///< of what stands still
+        bool moving = false;          ///< something before the light moves
     };
 
     void release(FrameContext& context, const char* reason);
@@ -71,6 +76,8 @@ class ShadowAtlasPass {
     void number_tiles(const FrameContext& context);
     void find_redraws(const FrameContext& context, std::span<const std::size_t> casters);
     void draw(const PassContext& pass, const GpuScene& gpu);
+    void draw_casters(const GpuScene& gpu, std::span<const Redraw> tiles, DrawList::Filter casters);
+    void copy(std::span<const Redraw> tiles, const gl::Texture& from, const gl::Texture& to) const;
     void add_glass(FrameContext& context, Output& out);
     void find_glass_redraws(const FrameContext& context);
     void draw_glass(const PassContext& pass, const FrameContext& context, gl::TextureView shadows);
@@ -78,8 +85,9 @@ class ShadowAtlasPass {
     ShadowDepth depth_;
     gl::Sampler texels_;
     gl::Texture atlas_, glass_;
+    gl::Texture still_;  ///< the atlas without what moves; empty where nothing moves before a light
     ShadowGlass glass_filter_;
-    gl::Buffer tile_buffer_;
+    gl::TexelBuffer tile_buffer_;
     AtlasAllocator allocator_;
     std::vector<LightTiles> lights_;  // one per scene light
     std::vector<shared::ShadowTile> tile_data_;
@@ -87,6 +95,7 @@ class ShadowAtlasPass {
     DrawList draws_, glass_draws_;
     std::uint64_t frame_ = 0;
     int tiles_drawn_ = 0;
+    std::size_t triangles_drawn_ = 0;
     bool warned_ = false;
 };
 

@@ -55,12 +55,14 @@ ShadowCasters::ShadowCasters(const Scene& scene, const GpuScene& gpu, bool glass
 
 std::uint64_t ShadowCasters::moving_key(const Frustum& volume) const {
     ShadowKey key;
+    bool any = false;
     for (const std::size_t i : moving_) {
         if (!volume.intersects(instances_[i].bounds)) continue;
+        any = true;
         key.add(std::uint64_t{i});
         key.add(scene_.nodes[instances_[i].node].world);
     }
-    return key.value();
+    return any ? key.value() : 0;
 }
 
 bool ShadowCasters::moving_within(glm::vec3 center, float radius) const {

@@ -37,7 +37,7 @@ class ShadowCasters {
     ShadowCasters(const Scene& scene, const GpuScene& gpu, bool glass = false);
     /// Of all casters that never move.
     [[nodiscard]] std::uint64_t static_key() const { return static_key_; }
-    /// Of the moving casters that meet a volume, with their places.
+    /// Of the moving casters that meet a volume, with their places; 0 where there are none.
     [[nodiscard]] std::uint64_t moving_key(const Frustum& volume) const;
     /// Whether a moving caster meets a sphere.
     [[nodiscard]] bool moving_within(glm::vec3 center, float radius) const;

@@ -35,6 +35,7 @@ ShadowSunPass::ShadowSunPass(ShaderLibrary& shaders)
 
 void ShadowSunPass::release(FrameContext& context, const std::string& reason) {
     cascades_ = {};
+    still_ = {};
     static_ = {};
     glass_ = {};
     for (int i = 0; i <= SUN_CASCADES; ++i) {
@@ -50,6 +51,10 @@ void ShadowSunPass::release(FrameContext& context, const std::string& reason) {
 
 void ShadowSunPass::resize(const RenderSettings& settings) {
     ensure(cascades_, map_desc(gl::TextureKind::d2_array, settings.cascade_size, SUN_CASCADES), "sun cascades");
+    if (still_ && still_.desc() != cascades_.desc()) {
+        still_ = {};
+        for (Map& map : maps_) map.kept_key = 0;
+    }
     ensure(static_, map_desc(gl::TextureKind::d2, settings.static_shadow_size, 1), "sun static shadow");
 }
 
@@ -74,6 +79,30 @@ void ShadowSunPass::fit(FrameContext& context, glm::vec3 direction) {
                                        1.0f / static_cast<float>(settings.static_shadow_size), 0);
 }
 
+void ShadowSunPass::draw_casters(const GpuScene& gpu, Map& map, DrawList::Filter casters) {
+    map.draws.build(gpu, caster_volume(map.fit), casters);
+    depth_.draw(gpu, map.draws, 0, world_to_clip(map.fit), true);
+    triangles_drawn_ += map.draws.triangle_count();
+}
+
+// What does not move, into the bound layer: drawn, or copied from where it is kept.
+void ShadowSunPass::draw_still(const GpuScene& gpu, int index, std::uint64_t key, bool keep) {
+    Map& map = maps_[index];
+    const int size = cascades_.size().x;
+    const auto copy = [&](const gl::Texture& from, const gl::Texture& to) {
+        glCopyImageSubData(from.id(), GL_TEXTURE_2D_ARRAY, 0, 0, 0, index, to.id(), GL_TEXTURE_2D_ARRAY, 0, 0, 0,
+                           index, size, size, 1);
+    };
+    if (map.kept_key == key) return copy(still_, cascades_);
+    gl::apply(ShadowDepth::state());
+    glClearDepthf(0);
+    glClear(GL_DEPTH_BUFFER_BIT);
+    draw_casters(gpu, map, DrawList::Filter::static_shadow_casters);
+    if (!keep) return;
+    copy(cascades_, still_);
+    map.kept_key = key;
+}
+
 TextureRef ShadowSunPass::add_map(FrameContext& context, const ShadowCasters& casters, int index,
                                   TextureRef texture) {
     Map& map = maps_[index];
@@ -83,8 +112,11 @@ TextureRef ShadowSunPass::add_map(FrameContext& context, const ShadowCasters& ca
     key.add(map.fit.world_to_texture);
     key.add(std::uint64_t{(is_static ? static_ : cascades_).id()});
     key.add(casters.static_key());
-    if (!is_static) key.add(casters.moving_key(volume));
+    const std::uint64_t still_key = key.value(), moving_key = is_static ? 0 : casters.moving_key(volume);
+    if (moving_key != 0) key.add(moving_key);
     map.key = key.value();
+    const bool moving = moving_key != 0;
+    if (moving && !still_) still_ = gl::Texture(cascades_.desc(), "sun cascades without what moves");
     if (map.key == map.drawn_key) {
         context.passes.skip(pass_name(index), "unchanged since it was drawn");
         return texture;
@@ -92,14 +124,10 @@ TextureRef ShadowSunPass::add_map(FrameContext& context, const ShadowCasters& ca
     context.passes.add(
         pass_name(index),
         [&](PassBuilder& pass) { texture = pass.attach_depth(texture, 0, is_static ? -1 : index); },
-        [this, &map, volume, is_static, &gpu = context.gpu](const PassContext& pass) {
+        [this, &map, index, still_key, moving, &gpu = context.gpu](const PassContext& pass) {
             pass.bind_framebuffer();
-            gl::apply(ShadowDepth::state());
-            glClearDepthf(0);
-            glClear(GL_DEPTH_BUFFER_BIT);
-            map.draws.build(gpu, volume,
-                            is_static ? DrawList::Filter::static_shadow_casters : DrawList::Filter::shadow_casters);
-            depth_.draw(gpu, map.draws, 0, world_to_clip(map.fit), true);
+            draw_still(gpu, index, still_key, moving);
+            if (moving) draw_casters(gpu, map, DrawList::Filter::moving_shadow_casters);
             map.drawn_key = map.key;
         });
     return texture;
@@ -158,6 +186,7 @@ void ShadowSunPass::add_glass(FrameContext& context, Output& out) {
 }
 
 ShadowSunPass::Output ShadowSunPass::add(FrameContext& context) {
+    triangles_drawn_ = 0;
     const auto sun = context.scene.sun();
     const bool casts = sun && context.scene.lights[*sun].shadow && context.scene.lights[*sun].node >= 0;
     if (!context.facts.has_sun || !sun || !casts || !context.settings.shadows) {

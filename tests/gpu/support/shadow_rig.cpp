@@ -15,13 +15,14 @@ const char* call_of(ShadowRig::Lookup lookup) {
         case ShadowRig::Lookup::sun_volume:
             return "sun_shadow_volume(p.world_depth.xyz, p.world_depth.w)";
         case ShadowRig::Lookup::light_surface:
-            return "light_shadow_surface(lights[uint(p.normal_light.w)], p.world_depth.xyz, p.normal_light.xyz)";
+            return "light_shadow_surface(light_data(uint(p.normal_light.w)), p.world_depth.xyz, "
+                   "p.normal_light.xyz)";
         case ShadowRig::Lookup::light_volume:
-            return "light_shadow_volume(lights[uint(p.normal_light.w)], p.world_depth.xyz)";
+            return "light_shadow_volume(light_data(uint(p.normal_light.w)), p.world_depth.xyz)";
         case ShadowRig::Lookup::sun_occluder:
             return "sun_shadow_occluder(p.world_depth.xyz)";
         case ShadowRig::Lookup::light_occluder:
-            return "light_shadow_occluder(lights[uint(p.normal_light.w)], p.world_depth.xyz)";
+            return "light_shadow_occluder(light_data(uint(p.normal_light.w)), p.world_depth.xyz)";
     }
     return "";
 }
@@ -115,7 +116,7 @@ void ShadowRig::dispatch(const gl::Program& program, std::span<const Point> poin
     const auto point_buffer = gl::Buffer::of(points, "points");
     results = gl::Buffer(points.size() * sizeof(float), "results");
     frame_buffer_.bind(GL_UNIFORM_BUFFER, BINDING_FRAME);
-    light_buffer_.bind(GL_SHADER_STORAGE_BUFFER, BINDING_LIGHTS);
+    light_buffer_.bind(IMAGE_LIGHTS);
     point_buffer.bind(GL_SHADER_STORAGE_BUFFER, 12);
     results.bind(GL_SHADER_STORAGE_BUFFER, 13);
     sun.bind();

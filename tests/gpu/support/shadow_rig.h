@@ -60,7 +60,8 @@ class ShadowRig {
     TransientPool pool_;
     std::unique_ptr<PassList> passes_;
     std::map<std::pair<Lookup, bool>, gl::Program> programs_;
-    gl::Buffer frame_buffer_, light_buffer_;
+    gl::Buffer frame_buffer_;
+    gl::TexelBuffer light_buffer_;
 };
 
 /// The text of a compute shader that includes shadow_occluder.glsl, with `defines` before and `main` after it.

@@ -27,7 +27,7 @@ layout(std140, binding = BINDING_FRAME) uniform StubBlock {
     vec4 stub_options;  // x slices, y thickness, z shadows
     vec4 stub_glass;
 };
-layout(std430, binding = BINDING_LIGHTS) readonly buffer StubLights { GpuLight stub_lights[]; };
+layout(std430, binding = 3) readonly buffer StubLights { GpuLight stub_lights[]; };
 layout(std430, binding = BINDING_CLUSTERS) readonly buffer StubRanges { ClusterRange stub_ranges[]; };
 layout(std430, binding = BINDING_CLUSTER_LIGHTS) readonly buffer StubList { uint stub_list[]; };
 vec3 sun_direction() { return stub_sun_direction.xyz; }
@@ -204,7 +204,7 @@ Inputs StubHost::inputs(PassList& passes) {
     in.has_ambient = ambient != glm::vec3(0);
     in.bind_lighting = [this] {
         uniforms_.bind(GL_UNIFORM_BUFFER, BINDING_FRAME);
-        lights_.bind(GL_SHADER_STORAGE_BUFFER, BINDING_LIGHTS);
+        lights_.bind(GL_SHADER_STORAGE_BUFFER, 3);
         ranges_.bind(GL_SHADER_STORAGE_BUFFER, BINDING_CLUSTERS);
         list_.bind(GL_SHADER_STORAGE_BUFFER, BINDING_CLUSTER_LIGHTS);
     };
