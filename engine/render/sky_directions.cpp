@@ -14,60 +14,97 @@ TYNDALL_GLSL_END
 namespace tyndall {
 namespace {
 
-/// Point `i` of `count` on the half sphere above the horizon: a spherical Fibonacci lattice.
-glm::dvec3 half_sphere(int i, int count) {
-    const double y = (i + 0.5) / count, radius = std::sqrt(1 - y * y);
-    const double angle = 2 * std::numbers::pi * std::fmod(i * std::numbers::phi, 1.0);
-    return {radius * std::cos(angle), y, radius * std::sin(angle)};
+struct Texel {
+    glm::vec3 direction;
+    glm::vec3 light;  ///< radiance times its share of the sphere
+    float share;
+    bool new_face;
+};
+
+/// Every second bit of `index`: place on the Morton curve.
+int even_bits(int index) {
+    int bits = 0;
+    for (int bit = 0; bit < 15; ++bit) bits |= (index >> (2 * bit) & 1) << bit;
+    return bits;
 }
 
-std::size_t nearest(std::span<const glm::vec3> directions, glm::vec3 d) {
-    std::size_t best = 0;
-    for (std::size_t i = 1; i < directions.size(); ++i)
-        if (glm::dot(directions[i], d) > glm::dot(directions[best], d)) best = i;
-    return best;
+/// Neighbours along a curve through each face lie beside each other in the sky.
+std::vector<Texel> along_curve(std::span<const glm::vec4> cube, int size) {
+    std::vector<Texel> texels;
+    double whole = 0;
+    for (int face = 0; face < 6; ++face)
+        for (int i = 0; i < size * size; ++i) {
+            const int x = even_bits(i), y = even_bits(i >> 1);
+            const glm::vec3 axis = glsl::cube_axis_direction({x, y, face}, size);
+            // A texel at the distance r from the cube's centre covers (2 / size)² / r³.
+            const float r2 = glm::dot(axis, axis), r = std::sqrt(r2), share = 1 / (r2 * r);
+            const auto texel = static_cast<std::size_t>((face * size + y) * size + x);
+            texels.push_back({axis / r, share * glm::vec3(cube[texel]), share, i == 0});
+            whole += double{share};
+        }
+    for (Texel& t : texels) {
+        t.light /= static_cast<float>(whole);
+        t.share /= static_cast<float>(whole);
+    }
+    return texels;
+}
+
+float all_channels(glm::vec3 v) {
+    return v.x + v.y + v.z;
+}
+
+void add(SkyPart& part, const Texel& texel, glm::vec3& middle) {
+    for (int c = 0; c < 3; ++c)
+        part.light[static_cast<std::size_t>(c)] += texel.light[c] * glm::vec4(1, 3.0f * texel.direction);
+    middle += (all_channels(texel.light) + 1e-20f) * texel.direction;
+}
+
+/// Every stride-th, around and around: so any first ones lie all over.
+std::vector<SkyPart> shuffled(const std::vector<SkyPart>& parts) {
+    const std::size_t count = parts.size();
+    auto stride = static_cast<std::size_t>(static_cast<double>(count) / std::numbers::phi);
+    while (std::gcd(stride, count) != 1) ++stride;
+    std::vector<SkyPart> order;
+    for (std::size_t k = 0; k < count; ++k) order.push_back(parts[k * stride % count]);
+    return order;
 }
 
 }  // namespace
 
-std::vector<glm::vec3> sky_directions(int count) {
-    TYNDALL_CHECK_LT(4, count);
-    const int above = (4 * count + 2) / 5;
-    int stride = static_cast<int>(count / std::numbers::phi);
-    while (std::gcd(stride, count) != 1) ++stride;
-    std::vector<glm::vec3> directions;
-    for (int k = 0; k < count; ++k) {
-        const int i = static_cast<int>(static_cast<long long>(k) * stride % count);
-        const glm::dvec3 d = i < above ? half_sphere(i, above) : half_sphere(i - above, count - above);
-        directions.emplace_back(d * glm::dvec3(1, i < above ? 1 : -1, 1));
+std::vector<SkyPart> share_sky(std::span<const glm::vec4> cube, int size, int count) {
+    constexpr int faces = 6;
+    TYNDALL_CHECK_EQ(cube.size(), static_cast<std::size_t>(faces * size * size));
+    TYNDALL_CHECK_LT(faces, count);
+    const std::vector<Texel> texels = along_curve(cube, size);
+    double light = 0;
+    for (const Texel& t : texels) light += double{all_channels(t.light)};
+    const auto weight = [&](const Texel& t) {
+        const double above = t.direction.y > 0 ? 2 * double{t.share} : 0;
+        return 0.25 * above + (light > 0 ? 0.75 * double{all_channels(t.light)} / light : 0);
+    };
+    std::vector<SkyPart> parts;
+    glm::vec3 middle(0);
+    double done = 0, part_end = 0;
+    const int whole_parts = count - faces;  // each face may end with one that is not full
+    for (const Texel& t : texels) {
+        if (t.new_face || done >= part_end) {
+            parts.emplace_back();
+            middle = glm::vec3(0);
+            part_end = done + 1.0 / whole_parts;
+        }
+        add(parts.back(), t, middle);
+        parts.back().direction = glm::normalize(middle);
+        done += weight(t);
     }
-    return directions;
+    TYNDALL_CHECK_LE(parts.size(), static_cast<std::size_t>(count));
+    parts.resize(static_cast<std::size_t>(count));
+    return shuffled(parts);
 }
 
-std::vector<SkyLight> share_sky(std::span<const glm::vec4> cube, int size, std::span<const glm::vec3> directions) {
-    TYNDALL_CHECK_EQ(cube.size(), static_cast<std::size_t>(6 * size * size));
-    std::vector<SkyLight> parts(directions.size(), SkyLight{});
-    double whole = 0;
-    for (std::size_t i = 0; i < cube.size(); ++i) {
-        const int texel = static_cast<int>(i);
-        const glm::vec3 axis =
-            glsl::cube_axis_direction({texel % size, texel / size % size, texel / (size * size)}, size);
-        // A texel at the distance r from the cube's centre covers (2 / size)² / r³.
-        const float r2 = glm::dot(axis, axis), weight = 1 / (r2 * std::sqrt(r2));
-        const glm::vec3 d = axis / std::sqrt(r2);
-        SkyLight& part = parts[nearest(directions, d)];
-        for (int c = 0; c < 3; ++c) part[static_cast<std::size_t>(c)] += weight * cube[i][c] * glm::vec4(1, 3.0f * d);
-        whole += weight;
-    }
-    for (SkyLight& part : parts)
-        for (glm::vec4& channel : part) channel /= static_cast<float>(whole);
-    return parts;
-}
-
-SkyLight sum(std::span<const SkyLight> parts) {
+SkyLight sum_of_light(std::span<const SkyPart> parts) {
     SkyLight all{};
-    for (const SkyLight& part : parts)
-        for (std::size_t c = 0; c < all.size(); ++c) all[c] += part[c];
+    for (const SkyPart& part : parts)
+        for (std::size_t c = 0; c < all.size(); ++c) all[c] += part.light[c];
     return all;
 }
 

@@ -7,17 +7,19 @@
 
 namespace tyndall {
 
-/// Unit vectors that cover the sphere evenly, four fifths of them the half above the horizon, from where most light
-/// comes. Any first ones of them cover it evenly, too.
-[[nodiscard]] std::vector<glm::vec3> sky_directions(int count);
-
 /// Light of a part of the sky, of red, green and blue: x its share of the mean radiance over the sphere, yzw three
 /// times its share of the mean of radiance times direction (shaders/lib/sky_radiance.glsl).
 using SkyLight = std::array<glm::vec4, 3>;
-/// `cube`: radiance of the sky, RGBA, six faces of size x size texels. Each texel is given to the direction nearest
-/// to it, so that all parts together are the whole sky.
-[[nodiscard]] std::vector<SkyLight> share_sky(std::span<const glm::vec4> cube, int size,
-                                              std::span<const glm::vec3> directions);
-[[nodiscard]] SkyLight sum(std::span<const SkyLight> parts);
+
+struct SkyPart {
+    glm::vec3 direction{0, 1, 0};  ///< unit, to the middle of its light
+    SkyLight light{};
+};
+
+/// The whole sky in `count` parts. `cube`: its radiance, RGBA, six faces of size x size texels, `size` a power of
+/// two. Three quarters of what makes a part as great as another are its light, one quarter is its size above the
+/// horizon: where the sky is bright parts are small. Some may be empty. Any first ones are spread over the sky.
+[[nodiscard]] std::vector<SkyPart> share_sky(std::span<const glm::vec4> cube, int size, int count);
+[[nodiscard]] SkyLight sum_of_light(std::span<const SkyPart> parts);
 
 }  // namespace tyndall

@@ -90,12 +90,12 @@ class SkyRig {
 
     std::vector<SkyRadiance> look_up(const std::vector<glm::vec3>& points) {
         if (!probe_)
-            probe_ = gl::Program({{GL_COMPUTE_SHADER, "#version 450 core\n#define TYNDALL_GLSL 1\n"
-                                                      "#define SKY_VISIBILITY 1\n" +
-                                                          resolve_includes(data_root(),
-                                                                           "shaders/engine/sky_volume.glsl") +
-                                                          probe_main}},
-                                 "sky probe");
+            probe_ =
+                gl::Program({{GL_COMPUTE_SHADER,
+                              "#version 450 core\n#define TYNDALL_GLSL 1\n"
+                              "#define SKY_VISIBILITY 1\n" +
+                                  resolve_includes(data_root(), "shaders/engine/sky_volume.glsl") + probe_main}},
+                            "sky probe");
         std::vector<glm::vec4> places;
         for (const glm::vec3 p : points) places.emplace_back(p, 0);
         const auto point_buffer = gl::Buffer::of(std::span<const glm::vec4>(places), "points");
@@ -239,8 +239,8 @@ TEST_F(SkyVisibility, ARoomIsLitThroughItsWindow) {
     const std::vector<glm::vec3> points{{0, 1.5f, 2}, {0, 1.2f, 0}, {1, 1.5f, 1}, {-2, 0.6f, 1}, {0, 1.2f, -2}};
     for (const glm::vec3 p : points) {
         const double truth = rig.truth(p), found = rig.mean_at(p);
-        std::cout << p.x << " " << p.y << " " << p.z << ": " << found / rig.open() << " of "
-                  << truth / rig.open() << "\n";
+        std::cout << p.x << " " << p.y << " " << p.z << ": " << found / rig.open() << " of " << truth / rig.open()
+                  << "\n";
         EXPECT_NEAR(found, truth, 0.1 * truth) << p.x << " " << p.y << " " << p.z;
         squares += std::pow(found / truth - 1, 2) / double(points.size());
     }
@@ -249,11 +249,11 @@ TEST_F(SkyVisibility, ARoomIsLitThroughItsWindow) {
 
 TEST_F(SkyVisibility, AWallTakesHalfOfTheSky) {
     SkyRig rig({{{-6, -6, -1}, {6, 6, 0}}});
-    rig.settings.sky_directions = 256;
+    rig.settings.sky_directions = 1024;
     rig.settings.sky_cell = 0.4f;
     rig.frame();
     for (const glm::vec3 p : {glm::vec3(0, 0, 0.7f), {3, -2, 0.7f}, {0, 0, -1.7f}})
-        EXPECT_NEAR(rig.mean_at(p), rig.truth(p), 0.02 * rig.open());
+        EXPECT_NEAR(rig.mean_at(p), rig.truth(p), 0.025 * rig.open());
 }
 
 // A room of thin walls in the open is dark up to its walls; within a cell of its edges some light comes in.
@@ -272,7 +272,8 @@ TEST_F(SkyVisibility, ThinWallsDoNotLeak) {
             const int near = (to_wall.x < 0.25f) + (to_wall.y < 0.25f) + (to_wall.z < 0.25f);
             if (near < 2) most = std::max(most, light);
         }
-        std::cout << thickness << ": leak " << mean / rig.open() << ", away from edges at most " << most / rig.open() << "\n";
+        std::cout << thickness << ": leak " << mean / rig.open() << ", away from edges at most "
+                  << most / rig.open() << "\n";
         EXPECT_LT(mean, 0.005 * rig.open());
         EXPECT_LT(most, 0.05 * rig.open());
         // Two cells above the roof it is as it should be.
@@ -331,6 +332,7 @@ class SkyInTheAir : public GlTest {
     SkyInTheAir() {
         options_.render.ambient = 1;
         options_.render.sky_directions = 64;
+        options_.render.sky_cells = 24;
         options_.render.sky_visibility = true;
         volumetrics_.settings.temporal.mode = volumetrics::Temporal::off;
         volumetrics_.settings.march.max_distance = 40;

@@ -22,22 +22,21 @@ const ProgramDesc links_program{
     {}};
 const ProgramDesc gather_program{
     "sky_volume/gather", {{GL_COMPUTE_SHADER, "shaders/engine/sky_gather.comp"}}, {}, {}};
-const ProgramDesc solid_program{
-    "sky_volume/solid", {{GL_COMPUTE_SHADER, "shaders/engine/sky_solid.comp"}}, {}, {}};
+const ProgramDesc solid_program{"sky_volume/solid", {{GL_COMPUTE_SHADER, "shaders/engine/sky_solid.comp"}}, {}, {}};
 const ProgramDesc spread_program{
     "sky_volume/spread", {{GL_COMPUTE_SHADER, "shaders/engine/sky_spread.comp"}}, {}, {}};
 const ProgramRegistry::Registration registrations[] = {
     ProgramRegistry::Registration(links_program), ProgramRegistry::Registration(gather_program),
     ProgramRegistry::Registration(solid_program), ProgramRegistry::Registration(spread_program)};
 
-constexpr int map_count = 16;           // depth maps that are read at once
-constexpr int texels_per_cell = 4;      // of a map, where it sees the level along an axis
-constexpr int directions_a_frame = 4;   // while a level is built progressively
-constexpr float growth = 3;             // of cells from level to level
-constexpr int sky_mip = 2;              // 32 texels a side are plenty for parts of the sky
+constexpr int map_count = 16;          // depth maps that are read at once
+constexpr int texels_per_cell = 4;     // of a map, where it sees the level along an axis
+constexpr int directions_a_frame = 4;  // while a level is built progressively
+constexpr float growth = 3;            // of cells from level to level
+constexpr int sky_mip = 1;             // 64 texels a side are plenty for parts of the sky
 // Of a cell, by which centres lie beside the round numbers at which levels have their walls.
 const glm::vec3 off_lattice(0.37f, 0.41f, 0.43f);
-constexpr float dark_share = 1e-5f;     // of the open sky: as good as none
+constexpr float dark_share = 1e-5f;  // of the open sky: as good as none
 
 std::string pass_name(int level) {
     return fmt::format("sky_volume/level_{}", level);
@@ -99,8 +98,8 @@ void SkyVolumePass::place_levels(const FrameContext& frame) {
     for (int i = 0; i < level_count_; ++i, cell *= growth) {
         const glm::vec3 size = glm::vec3(cells_ - 1) * cell;
         Place& place = levels_[static_cast<std::size_t>(i)].place;
-        const bool near = glm::all(
-            glm::lessThanEqual(glm::abs(frame.view.eye - (place.low + 0.5f * size)), 0.25f * size));
+        const bool near =
+            glm::all(glm::lessThanEqual(glm::abs(frame.view.eye - (place.low + 0.5f * size)), 0.25f * size));
         const glm::vec3 first = casters.min - 2 * cell, last = glm::max(casters.max + cell - size, first);
         const bool inside = glm::clamp(place.low, first, last + cell) == place.low && place.cell == cell;
         if (near && inside) continue;
@@ -112,13 +111,12 @@ void SkyVolumePass::place_levels(const FrameContext& frame) {
 }
 
 void SkyVolumePass::resize(int directions) {
-    if (std::ssize(directions_) != directions) {
-        directions_ = sky_directions(directions);
+    if (directions_ != directions) {
+        directions_ = directions;
         sky_key_ = 0;
         building_ = -1;
     }
-    const gl::TextureDesc volume =
-        volume_desc(GL_RGBA16F, {cells_.x, cells_.y, 3 * cells_.z * level_count_ + 3});
+    const gl::TextureDesc volume = volume_desc(GL_RGBA16F, {cells_.x, cells_.y, 3 * cells_.z * level_count_ + 3});
     if (volume_ && volume_.desc() == volume) return;
     volume_ = gl::Texture(volume, "sky volume");
     for (Level& level : levels_) level.shown_key = 0, level.shown = {.cell = 0};
@@ -152,7 +150,7 @@ void SkyVolumePass::fill_frame(FrameContext& frame) const {
 
 TextureRef SkyVolumePass::add(FrameContext& frame, TextureRef sky, std::uint64_t sky_key) {
     if (!frame.facts.sky_visibility) {
-        release(frame, !frame.facts.has_ambient           ? "ambient light is off"
+        release(frame, !frame.facts.has_ambient         ? "ambient light is off"
                        : !frame.settings.sky_visibility ? "sky_visibility is off"
                                                         : "nothing tells places or directions apart");
         return {};
@@ -162,7 +160,7 @@ TextureRef SkyVolumePass::add(FrameContext& frame, TextureRef sky, std::uint64_t
     ShadowKey common;
     common.add(sky_key);
     common.add(ShadowCasters(frame.scene, frame.gpu).static_key());
-    common.add(static_cast<std::uint64_t>(directions_.size()));
+    common.add(static_cast<std::uint64_t>(directions_));
     TextureRef volume = frame.passes.import("sky volume", volume_);
     int left = frame.progressive ? directions_a_frame : std::numeric_limits<int>::max();
     for (int i = SKY_LEVELS - 1; i >= 0; --i) {
@@ -186,7 +184,7 @@ TextureRef SkyVolumePass::add(FrameContext& frame, TextureRef sky, std::uint64_t
         building_ = i;
         building_key_ = level.key;
         if (begins) gathered_ = 0;
-        const int all = static_cast<int>(directions_.size()), first = gathered_;
+        const int all = directions_, first = gathered_;
         const int count = cells_ == glm::ivec3(1) ? all : std::min(left, all - first);
         left -= std::min(left, count);
         gathered_ += count;
@@ -208,7 +206,7 @@ TextureRef SkyVolumePass::add(FrameContext& frame, TextureRef sky, std::uint64_t
             [this, &frame, &level, sky, sky_key, i, begins, first, count, shows](const PassContext& pass) {
                 read_sky(pass.texture(sky).id, sky_key);
                 if (cells_ == glm::ivec3(1)) {
-                    const SkyLight open = sum(sky_);
+                    const SkyLight open = sum_of_light(sky_);
                     std::array<glm::vec4, 6> texels;
                     for (std::size_t c = 0; c < texels.size(); ++c) texels[c] = rounded_to_half(open[c % 3]);
                     volume_.upload(0, GL_RGBA, GL_FLOAT, texels.data());
@@ -218,16 +216,14 @@ TextureRef SkyVolumePass::add(FrameContext& frame, TextureRef sky, std::uint64_t
                 for (int part = first; part < first + count; part += map_count)
                     gather(frame, level, part, std::min(map_count, first + count - part));
                 if (!shows) return;
-                const std::span<const SkyLight> done =
-                    std::span(sky_).first(static_cast<std::size_t>(first + count));
-                spread(i, mean_of(sum(sky_)) / std::max(mean_of(sum(done)), 1e-30f));
+                const auto done = std::span(sky_).first(static_cast<std::size_t>(first + count));
+                spread(i, mean_of(sum_of_light(sky_)) / std::max(mean_of(sum_of_light(done)), 1e-30f));
             });
     }
     fill_frame(frame);
     return volume;
 }
 
-/// Each direction's part of the sky.
 void SkyVolumePass::read_sky(GLuint cube, std::uint64_t key) {
     if (key == sky_key_) return;
     sky_key_ = key;
@@ -272,24 +268,25 @@ void SkyVolumePass::gather(const FrameContext& frame, const Level& level, int fi
     const glm::vec3 low = level.place.low, high = low + glm::vec3(cells_ - 1) * level.place.cell;
     std::vector<shared::SkyDirection> directions;
     for (int i = 0; i < count; ++i) {
-        const auto direction = static_cast<std::size_t>(first + i);
-        const SunMap map = fit_static({low, high}, -directions_[direction], maps_.size().x);
+        const SkyPart& part = sky_[static_cast<std::size_t>(first + i)];
+        if (mean_of(part.light) <= 0) continue;
+        const SunMap map = fit_static({low, high}, -part.direction, maps_.size().x);
         draws_.build(frame.gpu, caster_volume(map), DrawList::Filter::static_shadow_casters);
-        map_framebuffers_[static_cast<std::size_t>(i)].bind();
+        map_framebuffers_[directions.size()].bind();
         gl::apply(ShadowDepth::state());
         glClearDepthf(0);
         glClear(GL_DEPTH_BUFFER_BIT);
         depth_.draw(frame.gpu, draws_, 0, world_to_clip(map), true);
-        const SkyLight& part = sky_[direction];
-        directions.push_back({map.world_to_texture, part[0], part[1], part[2]});
+        directions.push_back({map.world_to_texture, part.light[0], part.light[1], part.light[2]});
     }
+    if (directions.empty()) return;
     direction_buffer_.assign(std::span<const shared::SkyDirection>(directions), "sky directions");
     direction_buffer_.bind(GL_SHADER_STORAGE_BUFFER, 0);
     const gl::Program& shader = shaders_.get(gather_program);
     shader.set("cells", cells_);
     shader.set("low", low);
     shader.set("size", level.place.cell);
-    shader.set("count", count);
+    shader.set("count", static_cast<int>(directions.size()));
     shader.use();
     glBindTextureUnit(0, maps_.id());
     glBindSampler(0, compare_.id());
@@ -301,7 +298,7 @@ void SkyVolumePass::gather(const FrameContext& frame, const Level& level, int fi
 }
 
 void SkyVolumePass::spread(int level, float scale) const {
-    const SkyLight open = sum(sky_);
+    const SkyLight open = sum_of_light(sky_);
     const float darkest = dark_share * mean_of(open);
     glBindImageTexture(0, sums_.id(), 0, GL_TRUE, 0, GL_READ_ONLY, GL_RGBA16F);
     glBindImageTexture(1, links_.id(), 0, GL_TRUE, 0, GL_READ_WRITE, GL_R32UI);

@@ -20,11 +20,11 @@ namespace tyndall {
 /// Something opaque that stands still casts shadows.
 [[nodiscard]] bool has_static_casters(const GpuScene& gpu);
 
-/// Light of the sky as it arrives at the cells of a grid, past all casters that stand still: up to SKY_LEVELS levels
-/// of equal numbers of cells, each of cells three times as wide as the one before; the finer ones round the eye, the
-/// coarsest over the scene. Each direction of the sky has a depth map of the casters, against which all cells of a
-/// level are tested. A level is built anew when the sky, a caster or a setting changed, or the eye has come near
-/// its border, and until it is ready the one before is used.
+/// Light of the sky as it arrives at the cells of a grid, past all casters that stand still: up to SKY_LEVELS
+/// levels of equal numbers of cells, each of cells three times as wide as the one before; the finer ones round the
+/// eye, the coarsest over the scene. Each direction of the sky has a depth map of the casters, against which all
+/// cells of a level are tested. A level is built anew when the sky, a caster or a setting changed, or the eye has
+/// come near its border, and until it is ready the one before is used.
 class SkyVolumePass {
   public:
     /// Of all textures that it keeps.
@@ -60,9 +60,9 @@ class SkyVolumePass {
     ShaderLibrary& shaders_;
     ShadowDepth depth_;
     gl::Sampler compare_;
-    std::vector<glm::vec3> directions_;
-    std::vector<SkyLight> sky_;  ///< the part of each of them
-    std::uint64_t sky_key_ = 0;  ///< that those are of
+    int directions_ = 0;
+    std::vector<SkyPart> sky_;   ///< a part for each direction
+    std::uint64_t sky_key_ = 0;  ///< of the sky that those are of
     glm::ivec3 cells_{0};
     int level_count_ = 0;
     std::array<Level, SKY_LEVELS> levels_;

@@ -82,7 +82,8 @@ TEST(SkyRadianceTest, LightOfACapIsScatteredAsItsSumOverTheCap) {
     }
 }
 
-// The mean over all view directions is the mean radiance, whatever g: nothing is made or lost where nothing is cut off.
+// The mean over all view directions is the mean radiance, whatever g: nothing is made or lost where nothing is cut
+// off.
 TEST(SkyRadianceTest, ScatteringKeepsTheLight) {
     for (const double alpha : {0.1, 0.7, 1.5, 2.5})
         for (const float g : {0.2f, 0.6f}) {
@@ -97,9 +98,11 @@ TEST(SkyRadianceTest, ScatteringKeepsTheLight) {
 TEST(SkyRadianceTest, IrradianceOfACap) {
     for (const double alpha : {0.05, 0.5, 1.0, std::numbers::pi / 2, std::numbers::pi})
         for (const vec3 n : directions) {
-            const double truth = over_cap(alpha, axis, [&](dvec3 w) { return 4 * std::max(dot(w, dvec3(n)), 0.0); });
+            const double truth =
+                over_cap(alpha, axis, [&](dvec3 w) { return 4 * std::max(dot(w, dvec3(n)), 0.0); });
             // Of a point of light bands 0 to 2 leave 1/16 on its side and 3/8 across of what falls on it.
-            EXPECT_NEAR(sky_irradiance(cap(alpha, axis), n).x, truth, 0.4 * (1 - std::cos(alpha)) / 2 + 1e-5) << alpha;
+            EXPECT_NEAR(sky_irradiance(cap(alpha, axis), n).x, truth, 0.4 * (1 - std::cos(alpha)) / 2 + 1e-5)
+                << alpha;
         }
 }
 

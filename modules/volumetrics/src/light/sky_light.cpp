@@ -14,27 +14,31 @@ namespace {
 const PermutationAxis height_media{"HEIGHT_MEDIA", {0, 1, MAX_HEIGHT_MEDIA}}, local_media{"LOCAL_MEDIA", {0, 1}},
     sky{"SKY_VISIBILITY", {1}}, chromatic{"CHROMATIC", {0, 1}}, count_work{"COUNT_WORK", {0, 1}};
 
-/// Several height media are rare and slow: they have no program of their own without local media.
+/// One program serves all frames with local media or several height media.
+bool serves(const Permutation& p) {
+    return p.at("LOCAL_MEDIA") == 1 ? p.at("HEIGHT_MEDIA") == MAX_HEIGHT_MEDIA : p.at("HEIGHT_MEDIA") <= 1;
+}
 bool is_valid(const Permutation& p) {
-    return is_grid_permutation(p) && (p.at("LOCAL_MEDIA") == 1 || p.at("HEIGHT_MEDIA") <= 1);
+    return is_grid_permutation(p) && serves(p);
 }
 
-const ProgramDesc program{
-    .name = "volumetrics/sky_light",
-    .stages = {{GL_VERTEX_SHADER, "shaders/lib/fullscreen.vert"},
-               {GL_FRAGMENT_SHADER, "shaders/volumetrics/light/sky_light.frag"}},
-    .axes = {height_media, local_media, {"GRIDS", {0, 1}}, sky, chromatic, count_work},
-    .valid = is_valid};
+const ProgramDesc program{.name = "volumetrics/sky_light",
+                          .stages = {{GL_VERTEX_SHADER, "shaders/lib/fullscreen.vert"},
+                                     {GL_FRAGMENT_SHADER, "shaders/volumetrics/light/sky_light.frag"}},
+                          .axes = {height_media, local_media, {"GRIDS", {0, 1}}, sky, chromatic, count_work},
+                          .valid = is_valid};
 const ProgramDesc froxel_program{
     .name = "volumetrics/froxel_sky",
     .stages = {{GL_COMPUTE_SHADER, "shaders/volumetrics/techniques/froxel_light.comp"}},
     .axes = {height_media, local_media, sky, {"SKY_ALONE", {1}}, {"LAMPS", {0}}, chromatic, count_work},
-    .valid = [](const Permutation& p) { return p.at("LOCAL_MEDIA") == 1 || p.at("HEIGHT_MEDIA") <= 1; }};
+    .valid = serves};
 const ProgramRegistry::Registration registration(program), froxel_registration(froxel_program);
 
 Permutation permutation(const Frame& frame) {
     const bool local = !frame.media.local.empty() || height_media_axis(frame.media) > 1;
-    return {{"LOCAL_MEDIA", local}, {"SKY_VISIBILITY", 1}};
+    Permutation p{{"LOCAL_MEDIA", local}, {"SKY_VISIBILITY", 1}};
+    if (local) p["HEIGHT_MEDIA"] = MAX_HEIGHT_MEDIA;
+    return p;
 }
 
 Pass sky_pass(Frame& frame, const std::string& name, TextureRef depth, float nearest) {
@@ -46,11 +50,10 @@ Pass sky_pass(Frame& frame, const std::string& name, TextureRef depth, float nea
             .lit = true,
             .local_media = true,
             .state = {.blend = gl::Blend::add},
-            .set =
-                [steps, nearest](const PassContext&, const gl::Program& shader) {
-                    shader.set("steps", steps);
-                    shader.set("nearest", nearest);
-                }};
+            .set = [steps, nearest](const PassContext&, const gl::Program& shader) {
+                shader.set("steps", steps);
+                shader.set("nearest", nearest);
+            }};
 }
 
 }  // namespace
