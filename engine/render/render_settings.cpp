@@ -23,7 +23,7 @@ const SettingsTable& render_settings_table() {
                      permutation)
             .integer(&S::sky_directions,
                      {"sky_directions", "Sky directions",
-                      "Directions from which the sky lights the volume: a depth map of the scene for each of them, "
+                      "Parts of the sky that light the volume: a depth map of the scene for each of them, "
                       "whenever it is built."},
                      16, 2048, resource, logarithmic)
             .integer_of(&S::sky_cells,
