@@ -38,8 +38,8 @@ std::vector<Texel> along_curve(std::span<const glm::vec4> cube, int size) {
             const glm::vec3 axis = glsl::cube_axis_direction({x, y, face}, size);
             // A texel at the distance r from the cube's centre covers (2 / size)² / r³.
             const float r2 = glm::dot(axis, axis), r = std::sqrt(r2), share = 1 / (r2 * r);
-            const auto texel = static_cast<std::size_t>((face * size + y) * size + x);
-            texels.push_back({axis / r, share * glm::vec3(cube[texel]), share, i == 0});
+            const int texel = (face * size + y) * size + x;
+            texels.push_back({axis / r, share * glm::vec3(cube[static_cast<std::size_t>(texel)]), share, i == 0});
             whole += double{share};
         }
     for (Texel& t : texels) {

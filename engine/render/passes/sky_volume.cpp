@@ -216,7 +216,8 @@ TextureRef SkyVolumePass::add(FrameContext& frame, TextureRef sky, std::uint64_t
                 for (int part = first; part < first + count; part += map_count)
                     gather(frame, level, part, std::min(map_count, first + count - part));
                 if (!shows) return;
-                const auto done = std::span(sky_).first(static_cast<std::size_t>(first + count));
+                const int last = first + count;
+                const auto done = std::span(sky_).first(static_cast<std::size_t>(last));
                 spread(i, mean_of(sum_of_light(sky_)) / std::max(mean_of(sum_of_light(done)), 1e-30f));
             });
     }
@@ -267,8 +268,8 @@ void SkyVolumePass::begin(const FrameContext& frame, const Level& level) {
 void SkyVolumePass::gather(const FrameContext& frame, const Level& level, int first, int count) {
     const glm::vec3 low = level.place.low, high = low + glm::vec3(cells_ - 1) * level.place.cell;
     std::vector<shared::SkyDirection> directions;
-    for (int i = 0; i < count; ++i) {
-        const SkyPart& part = sky_[static_cast<std::size_t>(first + i)];
+    for (const SkyPart& part :
+         std::span(sky_).subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(count))) {
         if (mean_of(part.light) <= 0) continue;
         const SunMap map = fit_static({low, high}, -part.direction, maps_.size().x);
         draws_.build(frame.gpu, caster_volume(map), DrawList::Filter::static_shadow_casters);
