@@ -71,6 +71,7 @@ void add_lights(volumetrics::Inputs& inputs, const FrameContext& frame, const Li
     inputs.sun_direction = glm::vec3(frame.frame.sun_direction);
     inputs.has_lamps = facts.local_lights_in_view > 0;
     inputs.has_ambient = facts.has_ambient;
+    inputs.has_sky_radiance = facts.sky_visibility;
     for (std::size_t i = 0; i < facts.lamps.size(); ++i) {
         const Lamp& lamp = facts.lamps[i];
         if (!lamp.in_view) continue;

@@ -71,6 +71,7 @@ class Game {
           screen_(*session.shaders),
           scale_(options.scale) {
         session.timer->set_mode(session.timer_mode());
+        session.options.progressive = true;
         if (options.frame_budget > 0 && options.fixed_step == 0)
             budget_.emplace(options.frame_budget, std::min(least_kept_scale, scale_), 1.0f);
         say(options.told.empty() ? help : options.told + "\n" + help, help_seconds);

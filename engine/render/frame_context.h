@@ -29,6 +29,7 @@ struct FrameContext {
     double time = 0;
     std::uint32_t frame_index = 0;
     bool count_work = false;
+    bool progressive = false;                  ///< what may be built over several frames is
     std::span<const std::string> layers = {};  ///< that will be read, see Renderer::layer_names
 };
 

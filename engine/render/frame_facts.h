@@ -9,6 +9,7 @@ namespace tyndall {
 struct FrameFacts {
     bool has_sun = false;      ///< a sun with non-zero illuminance
     bool has_ambient = false;  ///< the sky: always, for nights have one; whoever turns ambient light off clears it
+    bool sky_visibility = false;     ///< with it, sky light that knows what stands in its way
     bool sun_through_glass = false;  ///< find_glass(): some may stand between the sun and what is in view
     bool has_global_medium = false;
     bool has_local_media = false;  ///< bounded media whose bounds are in view

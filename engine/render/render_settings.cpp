@@ -16,6 +16,26 @@ const SettingsTable& render_settings_table() {
                   {"ambient", "Ambient",
                    "Factor on the sky's light on surfaces and in media; 0 leaves the pass out."},
                   0, 4)
+            .boolean(&S::sky_visibility,
+                     {"sky_visibility", "Sky visibility",
+                      "The sky's light knows walls and directions: a volume of it over the scene; off, all places "
+                      "have the same."},
+                     permutation)
+            .integer(&S::sky_directions,
+                     {"sky_directions", "Sky directions",
+                      "Parts of the sky that light the volume: a depth map of the scene for each of them, "
+                      "whenever it is built."},
+                     16, 2048, resource, logarithmic)
+            .integer_of(&S::sky_cells,
+                        {"sky_cells", "Sky cells",
+                         "Cells across each level of the sky volume, and three quarters as many in height: 24 MiB "
+                         "at 64."},
+                        {16, 24, 32, 48, 64, 72}, resource)
+            .real(&S::sky_cell,
+                  {"sky_cell", "Sky cell",
+                   "Width of a cell of the finest level, round the eye; each coarser one is three times as wide.",
+                   "m"},
+                  0.05, 4, logarithmic)
             .boolean(&S::shadows,
                      {"shadows", "Shadows", "Shadow maps of the sun and the lamps; off frees them and lights all."},
                      permutation)

@@ -7,7 +7,12 @@ namespace tyndall {
 /// Quality and look of the renderer itself. Ranges, units, help: `render_settings_table()`.
 struct RenderSettings {
     float exposure_bias = 0;  ///< stops, added to the scene's exposure
-    float ambient = 0.4f;     ///< factor on the sky's light: nothing here blocks it, so 1 is light of an open plain
+    float ambient = 0.4f;  ///< factor on the sky's light: without sky_visibility nothing blocks it, and 1 is light
+                           ///< of an open plain
+    /// The sky's light meets walls: see SkyVolumePass.
+    bool sky_visibility = false;
+    int sky_directions = 192, sky_cells = 48;
+    float sky_cell = 0.5f;  ///< m
     bool shadows = true;
     int cascade_size = 1024;        ///< px per side of each of the 4 cascades
     float cascade_distance = 80;    ///< m of view depth the cascades cover

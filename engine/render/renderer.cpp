@@ -22,6 +22,7 @@
 #include "engine/render/passes/shadow_atlas.h"
 #include "engine/render/passes/shadow_sun.h"
 #include "engine/render/passes/sky.h"
+#include "engine/render/passes/sky_volume.h"
 #include "engine/render/passes/tonemap.h"
 #include "engine/render/passes/transparent.h"
 #include "shaders/shared/bindings.h"
@@ -30,7 +31,11 @@ namespace tyndall {
 
 struct Renderer::Impl {
     Impl(ShaderLibrary& library, std::vector<FrameModule*> modules_)
-        : shaders(library), modules(std::move(modules_)), shadow_sun(library), shadow_atlas(library) {}
+        : shaders(library),
+          modules(std::move(modules_)),
+          shadow_sun(library),
+          shadow_atlas(library),
+          sky_volume(library) {}
 
     ShaderLibrary& shaders;
     std::vector<FrameModule*> modules;
@@ -41,6 +46,7 @@ struct Renderer::Impl {
     GBufferPass gbuffer;
     ClusterPass cluster;
     SkyPass sky;
+    SkyVolumePass sky_volume;
     TransparentPass transparent;
 
     TransientPool pool;
@@ -137,10 +143,12 @@ LightSources Renderer::Impl::add_lights(FrameContext& frame, const GBuffer& g, c
     sample(sun.static_map);
     sample(sun.glass);
     if (facts.has_ambient) sample(dome.irradiance);
+    sample(sky_volume.add(frame, dome.radiance, sky.key()));
     sources.bind = [this, lamps] {
         frame_block.bind(GL_UNIFORM_BUFFER, BINDING_FRAME);
         if (facts.has_sun) shadow_sun.bind();
         if (facts.has_ambient) sky.bind_ambient();
+        if (facts.sky_visibility) sky_volume.bind();
         if (!lamps) return;
         lights.bind();
         cluster.bind();
@@ -233,6 +241,11 @@ void Renderer::render(const Scene& scene, const View& view, glm::ivec2 size, con
     r.layer = options.layer;
     r.facts = compute_facts(scene, view);
     r.facts.has_ambient = options.render.ambient > 0;
+    // Isotropic media under an open sky have the same light everywhere.
+    r.facts.sky_visibility =
+        r.facts.has_ambient && options.render.sky_visibility &&
+        (has_static_casters(*r.scene) ||
+         std::ranges::any_of(scene.media, [](const Medium& medium) { return medium.anisotropy != 0; }));
     if (options.render.shadows) find_glass(scene, *r.scene, view, r.facts);
     r.lights.update(scene, r.facts.lamps);
     r.passes = PassList();
@@ -250,6 +263,7 @@ void Renderer::render(const Scene& scene, const View& view, glm::ivec2 size, con
                        .time = options.time,
                        .frame_index = options.frame_index,
                        .count_work = options.count_work,
+                       .progressive = options.progressive,
                        .layers = wanted};
     data = r.frame_data(frame);
     LightSources sources;

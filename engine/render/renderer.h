@@ -27,6 +27,8 @@ struct FrameOptions {
     double time = 0;                ///< s
     std::uint32_t frame_index = 0;  ///< moves dither and noise patterns
     bool count_work = false;        ///< instrumented shaders; see Renderer::work
+    /// What takes long, as the sky volume, is built over several frames; else all in the first that needs it.
+    bool progressive = false;
     gl::GpuTimer* timer = nullptr;  ///< per-pass times; render() begins its frame and copies its results
     std::string layer = "color";    ///< the layer that read_layer may be asked for (layer_names)
     std::vector<std::string> more_layers = {};  ///< others that it may be asked for by name

@@ -43,12 +43,12 @@ std::vector<SettingsSection> make_sections() {
     sections.push_back({"Spatial filter", {"filter", "reconstruct"}, "filter", has_resolution, ""});
     sections.push_back({"Resolution", {"resolution", "upsample"}, "resolution", has_resolution, ""});
     sections.push_back({"Temporal filter", {"temporal"}, "temporal", has_resolution, ""});
-    sections.push_back(
-        {"Light",
-         {"max_distance", "grid_piece", "lamp_integration", "light_transmittance", "phase", "scattering_orders"},
-         "",
-         any,
-         ""});
+    sections.push_back({"Light",
+                        {"max_distance", "grid_piece", "lamp_integration", "light_transmittance", "phase",
+                         "sky_steps", "scattering_orders"},
+                        "",
+                        any,
+                        ""});
     sections.push_back({"Light volumes", {"sun_volume_", "grid_volume_", "lamp_volume_"}, "", any, ""});
     return sections;
 }

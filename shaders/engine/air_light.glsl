@@ -69,7 +69,11 @@ vec3 air_light(vec3 world, vec2 screen, float view_depth) {
 #if HAS_LAMPS
     light += ISOTROPIC_PHASE * air_lamps(world, screen, view_depth);
 #endif
+#if SKY_VISIBILITY
+    light += sky_radiance_at(world).mean;
+#else
     if (frame.exposure.y > 0.0) light += ambient_mean_radiance();  // the sky's
+#endif
     return light;
 }
 

@@ -3,12 +3,15 @@
 #define ENGINE_LIGHT_DATA_GLSL
 
 #include "shaders/engine/frame_block.glsl"
+#include "shaders/engine/sky_volume.glsl"
 #include "shaders/shared/lights.h"
 
 layout(rgba32f, binding = IMAGE_LIGHTS) readonly uniform imageBuffer light_texels;
 layout(std430, binding = BINDING_CLUSTERS) readonly buffer ClusterBuffer { ClusterRange clusters[]; };
 layout(std430, binding = BINDING_CLUSTER_LIGHTS) readonly buffer ClusterLightBuffer { uint cluster_lights[]; };
+#if !SKY_VISIBILITY
 layout(binding = UNIT_AMBIENT) uniform samplerCube ambient_cube;  // irradiance / pi per direction, mipped to 1x1
+#endif
 
 GpuLight light_data(uint index) {
     int i = 4 * int(index);
@@ -36,9 +39,12 @@ ClusterRange cluster_in(vec2 uv, int slice) {
 
 ClusterRange cluster_at(vec2 uv, float view_depth) { return cluster_in(uv, cluster_slice(view_depth)); }
 
-// Mean radiance over all directions: the mean of irradiance / pi over the sphere is the mean of the radiance, and the
+// Mean radiance of the open sky over all directions: the mean of irradiance / pi over the sphere is the mean of the radiance, and the
 // last mip holds one texel a face.
 vec3 ambient_mean_radiance() {
+#if SKY_VISIBILITY
+    return sky_radiance_open().mean;
+#else
     vec3 sum = vec3(0.0);
     for (int face = 0; face < 6; ++face) {
         vec3 axis = vec3(0.0);
@@ -46,6 +52,7 @@ vec3 ambient_mean_radiance() {
         sum += textureLod(ambient_cube, axis, 16.0).rgb;
     }
     return sum * (frame.exposure.y / 6.0);
+#endif
 }
 
 #endif

@@ -106,6 +106,16 @@ void add_lamps(Surface s, inout Reflected sum) {
 #endif
 
 #if HAS_AMBIENT
+#if SKY_VISIBILITY
+// Share of the open sky that is seen round a direction, the rougher the wider.
+float visible_sky(SkyRadiance here, vec3 direction, float roughness) {
+    float g = mix(0.9, 0.5, roughness);
+    vec3 open = sky_scattered(sky_radiance_open(), direction, g);
+    vec3 seen = sky_scattered(here, direction, g);
+    return min((seen.r + seen.g + seen.b) / max(open.r + open.g + open.b, 1.0e-30), 1.0);
+}
+#endif
+
 // The mip that blurs the sky about as much as the lobe: with a box filter each level doubles the angle a texel spans.
 void add_ambient(Surface s, inout Reflected sum) {
     if (frame.exposure.y <= 0.0) return;
@@ -120,8 +130,16 @@ void add_ambient(Surface s, inout Reflected sum) {
     // A rough lobe sees what the occlusion lets through, a sharp one less of it (Lagarde and de Rousiers 2014, 4.10).
     float specular_occlusion =
         clamp(pow(n_dot_v + s.occlusion, exp2(-16.0 * s.roughness - 1.0)) - 1.0 + s.occlusion, 0.0, 1.0);
-    sum.diffuse += diffuse * textureLod(ambient_cube, s.normal, 0.0).rgb * (s.occlusion * frame.exposure.y);
-    sum.specular += specular * mirrored * (specular_occlusion * frame.exposure.y);
+#if SKY_VISIBILITY
+    SkyRadiance here = sky_radiance_on(s.world, s.normal);
+    mirrored *= frame.exposure.y * visible_sky(here, reflect(-s.to_eye, s.normal), s.roughness);
+    vec3 irradiance = sky_irradiance(here, s.normal);  // over pi
+#else
+    mirrored *= frame.exposure.y;
+    vec3 irradiance = textureLod(ambient_cube, s.normal, 0.0).rgb * frame.exposure.y;
+#endif
+    sum.diffuse += diffuse * irradiance * s.occlusion;
+    sum.specular += specular * mirrored * specular_occlusion;
 }
 #endif
 

@@ -13,6 +13,12 @@ vec3 sun_illuminance() { return frame.sun_illuminance.rgb; }
 // Mean radiance of the ambient light over the sphere of directions.
 vec3 ambient_radiance() { return ambient_mean_radiance(); }
 
+// Optional, where Inputs::has_sky_radiance: the ambient light at a point, as shaders/lib/sky_radiance.glsl describes it; then it takes the
+// place of ambient_radiance().
+#if SKY_VISIBILITY
+SkyRadiance ambient_radiance_at(vec3 world) { return sky_radiance_at(world); }
+#endif
+
 // The local lights that may reach a point: a range of the list that light_at() indexes. `uv` is the screen position
 // (0..1, origin lower left), `view_depth` the distance along the view axis in metres.
 ClusterRange lights_near(vec2 uv, float view_depth) { return cluster_at(uv, view_depth); }

@@ -100,4 +100,33 @@ float phase(int kind, float g, float second_g, float second_alpha, float second_
     return phase(kind, g, cos_theta);
 }
 
+// Mean cosine of the scattering angle, of the functions above.
+float phase_mean_cosine_schlick(float g) {
+    float k = min(abs(1.55f * g - 0.55f * g * g * g), PHASE_MAX_ANISOTROPY);
+    float k2 = k * k;
+    // 1 / k - (1 - k^2) / (2 k^2) log((1 + k) / (1 - k)), which cancels where k is small.
+    float mean = k * (2.0f / 3.0f + k2 * (2.0f / 15.0f + k2 * (2.0f / 35.0f)));
+    if (k > 0.2f) {
+        mean = 1.0f / k - (1.0f - k2) / (2.0f * k2) * log((1.0f + k) / (1.0f - k));
+    }
+    return g < 0.0f ? -mean : mean;
+}
+
+float phase_mean_cosine_draine(float g, float alpha) {
+    return g * (1.0f + alpha * (3.0f + 2.0f * g * g) / 5.0f) / (1.0f + alpha * (1.0f + 2.0f * g * g) / 3.0f);
+}
+
+float phase_mean_cosine(int kind, float g) {
+    if (kind == PHASE_ISOTROPIC) {
+        return 0.0f;
+    }
+    if (kind == PHASE_SCHLICK) {
+        return phase_mean_cosine_schlick(g);
+    }
+    if (kind == PHASE_CORNETTE_SHANKS) {
+        return 3.0f * g * (4.0f + g * g) / (5.0f * (2.0f + g * g));
+    }
+    return g;
+}
+
 #endif

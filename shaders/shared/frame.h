@@ -4,6 +4,7 @@
 #include "shaders/shared/types.h"
 
 #define SUN_CASCADES 4
+#define SKY_LEVELS 3  // of the sky volume, the finest first
 
 SHARED_BEGIN
 
@@ -27,6 +28,8 @@ struct FrameData {
     vec4 sun_static_texel;            // x world size of one texel of the baked map; y 1/cascade map size; z 1/static map size;
                                       // w side of the sun's glass maps in texels, 0: no glass
     vec4 exposure;                    // x: factor from a unit of light to display; y ambient factor
+    vec4 sky_level[SKY_LEVELS];       // xyz centre of the level's first cell, world (m); w cells a metre
+    vec4 sky_cells;                   // xyz of a level; w number of levels
 };
 
 SHARED_END

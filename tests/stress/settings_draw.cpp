@@ -49,6 +49,8 @@ void limit_resources(StressOptions& options) {
     at_most(v.billboards.layers, 32);
     at_most(v.shaft_geometry.grid, 96);
     RenderSettings& r = options.render;
+    at_most(r.sky_directions, 24);
+    at_most(r.sky_cells, 16);
     halve_until(r.cluster_x, r.cluster_y, r.cluster_z, 20'000);
 }
 

@@ -12,6 +12,7 @@ const ProgramDesc program{
     {{"HAS_SUN", {0, 1}},
      {"HAS_LAMPS", {0, 1}},
      {"HAS_AMBIENT", {0, 1}},
+     {"SKY_VISIBILITY", {0, 1}},
      {"SHADOWS", {0, 1}},
      {"MEDIUM_TRANSMITTANCE", {0, 1}},
      {"LIGHT_VOLUMES", {0, 1, 2}},
@@ -21,6 +22,7 @@ const ProgramDesc program{
         const bool lights = p.at("HAS_SUN") != 0 || p.at("HAS_LAMPS") != 0;
         if (p.at("LIGHT_VOLUMES") != 0 && p.at("MEDIUM_TRANSMITTANCE") == 0) return false;
         if (p.at("LIGHT_VOLUMES") == 2 && p.at("HAS_SUN") == 0) return false;
+        if (p.at("SKY_VISIBILITY") > p.at("HAS_AMBIENT")) return false;
         if (p.at("GLASS") != 0 && p.at("SHADOWS") == 0) return false;
         return lights || (p.at("SHADOWS") == 0 && p.at("MEDIUM_TRANSMITTANCE") == 0);
     }};
@@ -32,6 +34,7 @@ Permutation permutation(const FrameContext& frame, const LightSources& sources) 
     defines.merge(Permutation{{"HAS_SUN", frame.facts.has_sun},
                               {"HAS_LAMPS", lamps},
                               {"HAS_AMBIENT", frame.facts.has_ambient},
+                              {"SKY_VISIBILITY", frame.facts.sky_visibility},
                               {"SHADOWS", frame.settings.shadows && lights},
                               {"MEDIUM_TRANSMITTANCE", 0},
                               {"LIGHT_VOLUMES", 0},

@@ -2,6 +2,7 @@
 
 #include "engine/gl/state.h"
 #include "engine/gl/vertex_array.h"
+#include "engine/render/passes/shadow_casters.h"
 #include "shaders/shared/bindings.h"
 
 namespace tyndall {
@@ -113,6 +114,13 @@ TextureRef SkyPass::add_background(FrameContext& frame, const Output& sky, Textu
             gl::draw_fullscreen();
         });
     return color;
+}
+
+std::uint64_t SkyPass::key() const {
+    ShadowKey key;
+    key.add(glm::vec4(sun_.to_sun, sun_.illuminance));
+    key.add(std::span(&sun_.light_unit, 1));
+    return key.value();
 }
 
 void SkyPass::bind_ambient() const {

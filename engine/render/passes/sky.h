@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <glm/glm.hpp>
 
 #include "engine/gl/texture.h"
@@ -20,7 +21,8 @@ class SkyPass {
     /// Fills the pixels of `color` where `depth` is empty; returns its new version.
     [[nodiscard]] TextureRef add_background(FrameContext& frame, const Output& sky, TextureRef depth,
                                             TextureRef color);
-    void bind_ambient() const;  ///< the irradiance cube, at UNIT_AMBIENT
+    [[nodiscard]] std::uint64_t key() const;  ///< of what add() is for: changes with the sky
+    void bind_ambient() const;                ///< the irradiance cube, at UNIT_AMBIENT
 
   private:
     struct Sun {

@@ -10,9 +10,10 @@
 namespace tyndall {
 namespace {
 
-const std::vector<PermutationAxis> axes{
-    {"HAS_SUN", {0, 1}},          {"HAS_LAMPS", {0, 1}}, {"SHADOWS", {0, 1}},   {"MEDIUM_TRANSMITTANCE", {0, 1}},
-    {"LIGHT_VOLUMES", {0, 1, 2}}, {"FOG", {0, 1}},       {"COUNT_WORK", {0, 1}}};
+const std::vector<PermutationAxis> axes{{"HAS_SUN", {0, 1}},          {"HAS_LAMPS", {0, 1}},
+                                        {"SHADOWS", {0, 1}},          {"MEDIUM_TRANSMITTANCE", {0, 1}},
+                                        {"LIGHT_VOLUMES", {0, 1, 2}}, {"FOG", {0, 1}},
+                                        {"SKY_VISIBILITY", {0, 1}},   {"COUNT_WORK", {0, 1}}};
 
 bool is_permutation(const Permutation& p) {
     const int volumes = p.at("LIGHT_VOLUMES");
@@ -49,6 +50,7 @@ Permutation permutation(const FrameContext& frame, const LightSources& sources,
                               {"MEDIUM_TRANSMITTANCE", 0},
                               {"LIGHT_VOLUMES", 0},
                               {"FOG", 0},
+                              {"SKY_VISIBILITY", frame.facts.sky_visibility},
                               {"COUNT_WORK", frame.count_work}});
     return defines;
 }

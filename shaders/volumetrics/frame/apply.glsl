@@ -128,8 +128,8 @@ FroxelPart froxel_part(Ray ray, float surface, bool opaque) {
 }
 
 // The global media behind the end of the froxels. surface: view depth [m] of what is there; endless: of nothing, so that the
-// media go on. ambient: its mean radiance.
-void froxel_tail(Ray ray, float begin, float surface, bool endless, vec3 ambient, inout March march) {
+// media go on.
+void froxel_tail(Ray ray, float begin, float surface, bool endless, Ambient ambient, inout March march) {
     Extinction sun_front = Extinction(0.0);
 #if HAS_SUN
     sun_front = to_extinction(sun_optical_depth(ray.origin.y + ray.direction.y * begin, -sun_direction()));
@@ -139,9 +139,14 @@ void froxel_tail(Ray ray, float begin, float surface, bool endless, vec3 ambient
 
 // At screen position uv (0..1, origin lower left) up to a view depth [m].
 FogInFront fog_at(vec2 uv, float view_depth) {
+#if !SKY_VISIBILITY
     vec3 ambient = view_depth > froxel_far() && volumetrics.has_ambient != 0u ? ambient_radiance() : vec3(0.0);
+#endif
     Ray ray = view_ray(uv);
     FroxelPart part = froxel_part(ray, view_depth, false);
+#if SKY_VISIBILITY
+    Ambient ambient = ambient_at(ray, part.end);
+#endif
     March march = March(part.radiance, exp(-(part.global_depth + part.local_depth)));
     if (view_depth > froxel_far()) froxel_tail(ray, part.end, view_depth, false, ambient, march);
     return FogInFront(march.radiance, vec3(march.transmittance));

@@ -55,7 +55,7 @@ SunSegment sun_part(Ray ray, Medium m, float begin, float end, Optics optics, in
 
 // Local and global media over [begin, end] under ambient light and an unshadowed sun: behind the froxels there are neither lamps
 // nor shadows. sun_front: as of add_global. The chords were found before.
-void add_local_segments(Ray ray, float begin, float end, vec3 ambient, inout Extinction sun_front, inout March march) {
+void add_local_segments(Ray ray, float begin, float end, Ambient ambient, inout Extinction sun_front, inout March march) {
 #if HAS_SUN
     local_sun_front = local_sun_depth(ray, begin);
 #endif
@@ -66,7 +66,7 @@ void add_local_segments(Ray ray, float begin, float end, vec3 ambient, inout Ext
         count_work(WORK_MEDIUM_SAMPLES, 1u);
         add_local_media(ray, begin, part_end, m);
         Optics optics = medium_optics(m, path_length);
-        vec3 gathered = (m.sigma_s * ambient + m.emission) * optics.effective_length;
+        vec3 gathered = ambient_glow(m, ambient) * optics.effective_length;
 #if HAS_SUN
         gathered += sun_scattering(ray, m, sun_part(ray, m, begin, part_end, optics, sun_front).effective_length);
 #if GRIDS

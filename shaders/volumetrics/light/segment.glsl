@@ -4,6 +4,7 @@
 
 #include "shaders/interface/lights.glsl"
 #include "shaders/lib/work.glsl"
+#include "shaders/volumetrics/light/ambient.glsl"
 #include "shaders/volumetrics/media/extinction.glsl"
 #include "shaders/volumetrics/light/light_transmittance.glsl"
 #include "shaders/volumetrics/frame/ray.glsl"
@@ -71,13 +72,13 @@ vec3 sun_scattering(Ray ray, Medium m, Extinction effective_length) {
 
 // Light of global media under ambient light and an unshadowed sun over [begin, end]. sun_front: the optical depth
 // towards the sun at `begin`; becomes that at `end`.
-void add_global(Ray ray, float begin, float end, vec3 ambient, inout Extinction sun_front, inout March march) {
+void add_global(Ray ray, float begin, float end, Ambient ambient, inout Extinction sun_front, inout March march) {
     Medium m = global_medium(ray.origin.y + ray.direction.y * begin, ray.direction.y, end - begin);
     count_work(WORK_MEDIUM_SAMPLES, 1u);
     Optics optics = medium_optics(m, end - begin);
     vec3 gathered = vec3(0.0);
 #if !SUN_ALONE
-    gathered = (m.sigma_s * ambient + m.emission) * optics.effective_length;
+    gathered = ambient_glow(m, ambient) * optics.effective_length;
 #endif
 #if HAS_SUN
     SunSegment sun = sun_segment(ray, begin, end, optics, sun_front);
@@ -122,7 +123,7 @@ vec3 further_suns(Ray ray, float begin, float end) {
 }
 #endif
 
-void add_tail_part(Ray ray, float begin, float end, vec3 ambient, inout Extinction sun_front, inout March march) {
+void add_tail_part(Ray ray, float begin, float end, Ambient ambient, inout Extinction sun_front, inout March march) {
 #if HAS_SUN
     march.radiance += march.transmittance * further_suns(ray, begin, end);
 #endif
@@ -130,7 +131,7 @@ void add_tail_part(Ray ray, float begin, float end, vec3 ambient, inout Extincti
 }
 
 // Global media between the end of the march and the surface, or without end where there is none.
-void march_tail(Ray ray, float begin, float end, bool endless, vec3 ambient, Extinction sun_front, inout March march) {
+void march_tail(Ray ray, float begin, float end, bool endless, Ambient ambient, Extinction sun_front, inout March march) {
     // What lies behind an optical depth of 16 cannot be seen: source and sun are taken from what lies before.
     Extinction sigma_t = to_extinction(volumetrics.homogeneous_sigma_t.rgb);
     float visible_end = min(end, begin + 16.0 / max(largest(sigma_t), 1.0e-30));

@@ -65,11 +65,11 @@ vec3 glass_over_segment(Ray ray, Segment segment, float fall) {
 
 // segment.offset: 0..1, where the segment is sampled, see below. `m` and `optics`: its medium. sun_front: the optical
 // depth towards the sun at the segment's begin; becomes that at its end.
-SegmentLight segment_light_parts(Ray ray, Segment segment, Medium m, Optics optics, vec3 ambient,
+SegmentLight segment_light_parts(Ray ray, Segment segment, Medium m, Optics optics, Ambient ambient,
                                  inout Extinction sun_front) {
     float path_length = segment.end - segment.begin;
     SegmentLight light = SegmentLight(vec3(0.0), vec3(0.0), Visibility(1.0), vec3(0.0), vec3(0.0));
-    light.diffuse = (m.sigma_s * ambient + m.emission) * optics.effective_length;
+    light.diffuse = ambient_glow(m, ambient) * optics.effective_length;
 
 #if HAS_SUN
     // Visibility is sampled where that share of the light has been gathered.
@@ -104,7 +104,7 @@ vec3 sum_of(SegmentLight light) {
     return gathered;
 }
 
-vec3 segment_light(Ray ray, Segment segment, Medium m, Optics optics, vec3 ambient, inout Extinction sun_front) {
+vec3 segment_light(Ray ray, Segment segment, Medium m, Optics optics, Ambient ambient, inout Extinction sun_front) {
     return sum_of(segment_light_parts(ray, segment, m, optics, ambient, sun_front));
 }
 

@@ -14,7 +14,7 @@ float particle_phase(float anisotropy, float part, float cos_theta) {
 }
 
 // The volume scattering function [1/(m sr)]: scattering coefficient times phase function, summed over the media. For
-// ambient light, which comes from everywhere alike, it is sigma_s whatever the phase.
+// ambient light: ambient.glsl.
 vec3 volume_scattering(Medium m, float cos_theta) {
     vec3 sum = particle_sigma_s(m) * particle_phase(m.anisotropy, 1.0, cos_theta);
 #if RAYLEIGH

@@ -8,7 +8,8 @@
 // FROXEL_HISTORY: sun and lamps are stored apart, unshadowed, with the visible share of them, which froxel_history.comp averages over the
 // frames. Visibility is then sampled all over the froxel, not on the column's ray alone.
 //
-// LOCAL_MEDIA: local media are in view or dim light.
+// LOCAL_MEDIA: local media are in view or dim light. SKY_ALONE: adds the sky's light, which differs from place to place, to froxels that
+// are lit without.
 #define LIGHT_VOLUMES (LOCAL_MEDIA + GRIDS)
 
 uniform bool many_lamps;  // nothing but the lamps that are not among the few of the uniform block
@@ -33,7 +34,11 @@ layout(binding = 1) uniform sampler3D froxel_scattering;  // rgb sigma_s, a sum 
 layout(binding = 2) uniform sampler3D froxel_extinction;  // rgb sigma_t
 layout(binding = 3) uniform sampler3D froxel_emission;
 #endif
+#if SKY_ALONE
+layout(rgba16f, binding = 0) uniform image3D froxel_radiance;
+#else
 layout(rgba16f, binding = 0) writeonly uniform image3D froxel_radiance;
+#endif
 #if FROXEL_HISTORY
 layout(rgba16f, binding = 1) writeonly uniform image3D froxel_visibility;  // rgb lamps, a sun; < 0: there are none
 #if HAS_SUN
@@ -101,7 +106,7 @@ struct SliceLight {
 };
 
 // `cut`: where the light of the slice ends, in it or behind it.
-SliceLight slice_light(Ray ray, ivec3 froxel, float begin, float end, float cut, vec3 ambient, inout Extinction sun_front) {
+SliceLight slice_light(Ray ray, ivec3 froxel, float begin, float end, float cut, Ambient ambient, inout Extinction sun_front) {
     float lit_end = min(end, max(cut, mix(begin, end, LEAST_SHARE)));
     Segment segment = Segment(begin, lit_end, sample_offset(froxel), 0.0, volumetrics.homogeneous_sigma_s.rgb,
                               volumetrics.homogeneous_sigma_t.rgb);
@@ -138,7 +143,11 @@ void store_slice(ivec3 froxel, SliceLight slice, Extinction transmittance) {
     imageStore(froxel_visibility, froxel, round_to_half(visibility));
     imageStore(froxel_radiance, froxel, round_to_half(vec4(scale * light.diffuse, 0.0)));
 #else
-    imageStore(froxel_radiance, froxel, round_to_half(vec4(transmittance * (sum_of(slice.light) / slice.share), 0.0)));
+    vec3 radiance = vec3(transmittance * (sum_of(slice.light) / slice.share));
+#if SKY_ALONE
+    radiance += imageLoad(froxel_radiance, froxel).rgb;
+#endif
+    imageStore(froxel_radiance, froxel, round_to_half(vec4(radiance, 0.0)));
 #endif
 }
 
@@ -155,7 +164,9 @@ void main() {
     }
 
     Ray ray = view_ray((vec2(froxel.xy) + 0.5) / vec2(size.xy));
+#if !SKY_VISIBILITY
     vec3 ambient = volumetrics.has_ambient != 0u ? ambient_radiance() : vec3(0.0);
+#endif
     float cut = ray_distance_from_view_depth(farthest, ray.forward_cosine);
     float begin = ray_distance_from_view_depth(froxel_slice_begin(froxel.z, size.z), ray.forward_cosine);
 #if LAMPS
@@ -177,6 +188,9 @@ void main() {
         SliceLight slice = SliceLight(SegmentLight(vec3(0.0), vec3(0.0), Visibility(-1.0), vec3(0.0), vec3(0.0)), Extinction(1.0));
 #if FROXEL_HISTORY
         ray.visibility_direction = jittered_direction(ray, froxel, column_width, column_height);
+#endif
+#if SKY_VISIBILITY
+        Ambient ambient = ambient_at(ray, 0.5 * (begin + min(end, max(cut, begin))));
 #endif
         if (largest(transmittance) > OPAQUE)
             slice = slice_light(ray, froxel, begin, end, cut, ambient, sun_front);

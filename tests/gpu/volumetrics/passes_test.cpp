@@ -41,7 +41,8 @@ TEST_F(VolumetricsPasses, WithoutMediumNothingIsAddedOrHeld) {
                                          Key("volumetrics/filter_vertical"), Key("volumetrics/relight"),
                                          Key("volumetrics/upsample"), Key("volumetrics/temporal"),
                                          Key("volumetrics/refine_mask"), Key("volumetrics/refine"),
-                                         Key("volumetrics/composite")));
+                                         Key("volumetrics/sky_light"), Key("volumetrics/sky_light_again"),
+                                         Key("volumetrics/froxel_sky"), Key("volumetrics/composite")));
         EXPECT_EQ(frame.persistent_bytes, 0U);
     }
 }

@@ -80,6 +80,9 @@ struct Inputs {
     bool has_lamps = false;             ///< local lights are in view
     std::vector<Lamp> lamps;            ///< those; local media do not attenuate the light of lamps left out
     bool has_ambient = false;
+    /// With has_ambient: that light differs from place to place, and shaders/interface/lights.glsl says how
+    /// (ambient_radiance_at).
+    bool has_sky_radiance = false;
     std::vector<TextureRef> light_textures;  ///< what shaders/interface/{lights,shadows}.glsl sample
     std::vector<BufferRef> light_buffers;    ///< and read
     std::function<void()> bind_lighting;     ///< binds those; called inside each pass that lights the medium

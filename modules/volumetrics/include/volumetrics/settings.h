@@ -45,6 +45,7 @@ struct LightSettings {
     float back_anisotropy = -0.5f;  ///< -0.999 … 0, of double_henyey_greenstein
     float back_weight = 0.2f;       ///< 0 … 1
     float droplet_diameter = 10;    ///< um, 5 … 50, of hg_draine
+    int sky_steps = 12;             ///< 1 … 128, where ambient light differs from place to place
     int scattering_orders = 1;      ///< 1 … 8, of sunlight in density grids
 };
 /// Of techniques that sample.

@@ -80,6 +80,11 @@ SettingsTable& growing_settings_table() {
                    "farther forward.",
                    "um"},
                   5, 50)
+            .integer(in(&S::light, &LightSettings::sky_steps),
+                     {"sky_steps", "Sky steps",
+                      "Along a view ray, at which media ask for the sky's light where walls keep some of it out "
+                      "(sky_visibility)."},
+                     1, 128, Effect::uniform)
             .integer(in(&S::light, &LightSettings::scattering_orders),
                      {"scattering_orders", "Scattering orders",
                       "Of sunlight in density grids: 1 is scattered once, which is what the references have; more "

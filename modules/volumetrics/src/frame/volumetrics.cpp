@@ -6,6 +6,7 @@
 #include "engine/core/check.h"
 #include "frame/composite.h"
 #include "frame/resources.h"
+#include "light/sky_light.h"
 #include "reconstruction/reconstruction.h"
 #include "shaders/shared/bindings.h"
 #include "techniques/froxel_fog.h"
@@ -49,9 +50,13 @@ struct Volumetrics::Impl {
             resources.temporal.release();
         } else if (desc.add) {
             add_depth_downsample(frame);
-            outputs = reconstruct(frame, desc.add(frame));
+            Estimate estimate = desc.add(frame);
+            add_sky_light(frame, estimate);
+            outputs = reconstruct(frame, estimate);
         }
         if (inputs.transparents && !outputs.fog) outputs.fog = add_froxel_fog(frame, nullptr);
+        skip_missing(passes, sky_light_passes(),
+                     inputs.has_sky_radiance ? "nothing asks for it" : "ambient light is the same everywhere");
         skip_others(passes, desc);
         return outputs;
     }
@@ -95,6 +100,7 @@ Outputs Volumetrics::add_passes(PassList& passes, const Inputs& inputs, const Se
         skip_missing(passes, desc.passes, reason);
         if (!desc.add) skip_others(passes, desc);
         skip_missing(passes, reconstruction_passes(), reason);
+        skip_missing(passes, sky_light_passes(), reason);
         passes.skip("volumetrics/composite", reason);
         return {};
     }

@@ -281,7 +281,7 @@ FrameMedia gather_media(const Inputs& inputs, const Settings& settings) {
     media.data.grid_piece = settings.march.grid_piece;
     media.data.scattering_orders = static_cast<unsigned>(settings.light.scattering_orders);
     media.data.light_transmittance = settings.light.transmittance ? 1U : 0U;
-    media.data.has_ambient = inputs.has_ambient ? 1U : 0U;
+    media.data.has_ambient = inputs.has_ambient && !inputs.has_sky_radiance ? 1U : 0U;
     media.data.further_suns = static_cast<std::uint32_t>(
         std::ranges::count_if(inputs.lamps, [&](const Lamp& l) { return is_sun(l, inputs.eye); }));
     if (desc.traits.few_lamps) set_few_lamps(inputs, settings, media);

@@ -1,3 +1,4 @@
+#include "light/sky_light.h"
 #include "media/media.h"
 #include "reconstruction/reconstruction.h"
 
@@ -53,6 +54,7 @@ void add_refine(Frame& frame, const Estimate& low, Estimate& estimate) {
     pass.depth_test = mask;
     pass.state = {.depth_test = true, .depth_func = GL_LESS};  // it is drawn at depth 0
     frame.add(pass);
+    add_sky_light_again(frame, estimate, mask);
 }
 
 }  // namespace tyndall::volumetrics

@@ -1,4 +1,5 @@
 #include "frame/resources.h"
+#include "light/sky_light.h"
 #include "media/noise_volume.h"
 #include "shaders/shared/bindings.h"
 #include "techniques/froxel_fog.h"
@@ -44,7 +45,8 @@ Fog add_froxel_fog(Frame& frame, FroxelHistory* history, FroxelContent content) 
     const FroxelMedia& media = froxel_media(frame);
     const TextureRef columns = froxel_columns(frame);
     if (history != nullptr) history->begin_frame(frame.inputs, frame.settings, frame.media);
-    const FroxelLight light = add_froxel_light(frame, media, columns, history, content);
+    FroxelLight light = add_froxel_light(frame, media, columns, history, content);
+    if (content == FroxelContent::all) add_froxel_sky(frame, columns, light.radiance);
     TextureRef radiance = light.radiance;
     if (history != nullptr)
         radiance = add_froxel_history(frame, columns, light, *history);
