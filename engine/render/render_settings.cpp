@@ -16,6 +16,10 @@ const SettingsTable& render_settings_table() {
                   {"ambient", "Ambient",
                    "Factor on the sky's light on surfaces and in media; 0 leaves the pass out."},
                   0, 4)
+            .boolean(&S::sky_visibility,
+                     {"sky_visibility", "Sky visibility",
+                      "The sky lights what sees it, from where it is bright; off: all alike, through walls."},
+                     permutation)
             .boolean(&S::shadows,
                      {"shadows", "Shadows", "Shadow maps of the sun and the lamps; off frees them and lights all."},
                      permutation)

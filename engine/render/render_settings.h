@@ -8,6 +8,7 @@ namespace tyndall {
 struct RenderSettings {
     float exposure_bias = 0;  ///< stops, added to the scene's exposure
     float ambient = 0.4f;     ///< factor on the sky's light: nothing here blocks it, so 1 is light of an open plain
+    bool sky_visibility = false;  ///< the scene stands before the sky, which has directions
     bool shadows = true;
     int cascade_size = 1024;        ///< px per side of each of the 4 cascades
     float cascade_distance = 80;    ///< m of view depth the cascades cover
