@@ -63,7 +63,7 @@ Scene sky_forest() {
     lathe(tree, kWood, vec3(0), trunk, 7);
     // Leaves: squares of 1.1 m, 5 to 12 m up, one side up and one down.
     Random random(5);
-    for (int i = 0; i < 60; ++i) {
+    for (int i = 0; i < 50; ++i) {
         const float height = random.range(5.0f, 12.0f), out = 2.6f * (1.0f - 0.06f * (height - 5.0f));
         const float azimuth = random.range(0.0f, 2.0f * kPi), radius = out * (0.25f + 0.75f * random.unit());
         const vec3 center(radius * cosine(azimuth), height, radius * sine(azimuth));
