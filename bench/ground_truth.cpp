@@ -26,6 +26,7 @@ GroundTruth from_cpu(const Session& session, const View& view, const Point& poin
     reference::Settings settings;
     settings.light_transmittance = point.light_transmittance;
     settings.ambient = session.options.render.ambient;
+    settings.sky_visibility = session.options.render.sky_visibility;
     const reference::Reference integrator(session.scene, settings);
     Progress progress("reference of " + point.place->name + ", row", point.size.y);
     reference::Picture picture =

@@ -38,10 +38,6 @@ struct InScattering::RaySum {
     std::vector<Panel<dvec3>> panels{};
     dvec3 sum{0};  ///< of the panels as first integrated
 
-    /// 1/(m sr)
-    [[nodiscard]] dvec3 scattered(const MediumPoint& m, double cos_theta) const {
-        return (m.sigma_s - m.air) * in.settings_.phase(m.anisotropy, cos_theta) + m.air * rayleigh(cos_theta);
-    }
     [[nodiscard]] double phase_peak() const {
         const double particles = in.settings_.phase.peak(ray.greatest_anisotropy());
         return ray.has_air() ? std::max(particles, rayleigh_peak()) : particles;
@@ -54,7 +50,8 @@ struct InScattering::RaySum {
         const MediumPoint m = ray.at(t);
         const dvec3 filter = tint.at(t);
         if (m.sigma_s * filter == dvec3(0)) return dvec3(0);
-        return filter * glm::exp(-ray.depth(t)) * sun.illuminance * scattered(m, glm::dot(sun.to_sun, direction)) *
+        return filter * glm::exp(-ray.depth(t)) * sun.illuminance *
+               in.scattered(m, glm::dot(sun.to_sun, direction)) *
                in.towards_sun(origin + t * direction, sun.to_sun, in.averaged());
     }
     /// At u metres behind the point nearest to the lamp, times `weight`, m².
@@ -71,7 +68,7 @@ struct InScattering::RaySum {
         if (strength <= 0) return dvec3(0);
         const dvec3 to_lamp = distance > 0 ? -offset / distance : -direction;
         return filter * glm::exp(-ray.depth(t)) * lamp.intensity *
-               scattered(m, distance > 0 ? -u / distance : 0.0) *
+               in.scattered(m, distance > 0 ? -u / distance : 0.0) *
                in.towards_lamp(origin + t * direction, to_lamp, distance, in.averaged()) * strength;
     }
     [[nodiscard]] dvec3 evaluate(int source, double x) const {
@@ -194,6 +191,10 @@ struct InScattering::RaySum {
 InScattering::InScattering(const Geometry& geometry, const Media& media, const Lighting& lighting,
                            const Settings& settings)
     : geometry_(geometry), media_(media), lighting_(lighting), settings_(settings) {}
+
+dvec3 InScattering::scattered(const MediumPoint& m, double cos_theta) const {
+    return (m.sigma_s - m.air) * settings_.phase(m.anisotropy, cos_theta) + m.air * rayleigh(cos_theta);
+}
 
 dvec3 InScattering::towards_sun(dvec3 point, dvec3 to_sun, const DepthTolerance& tolerance) const {
     if (!settings_.light_transmittance) return dvec3(1);

@@ -30,18 +30,20 @@ class InScattering {
     [[nodiscard]] dvec3 towards_sun(dvec3 point, dvec3 to_sun, const DepthTolerance& tolerance) const;
     [[nodiscard]] dvec3 towards_lamp(dvec3 point, dvec3 to_lamp, double distance,
                                      const DepthTolerance& tolerance) const;
+    /// What a medium at a point sends of light from one direction into another, 1/(m sr).
+    [[nodiscard]] dvec3 scattered(const MediumPoint& m, double cos_theta) const;
     /// What optical depths must be accurate to, absolute.
     [[nodiscard]] double depth_tolerance() const { return budget_depth * settings_.tolerance; }
+    /// The same for paths to lights from the points of a ray: it averages many of them through noise, and
+    /// neighbours half a feature apart are independent, so that of their error a quarter or less is left.
+    [[nodiscard]] DepthTolerance averaged() const {
+        return {depth_tolerance(), 4 * budget_noise * settings_.tolerance};
+    }
 
   private:
     // How the tolerance is shared out. A depth counts twice: from the eye and from the light.
     static constexpr double budget_quadrature = 0.4, budget_left_out = 0.2, budget_depth = 0.05, budget_noise = 0.3;
     struct RaySum;
-    /// A ray averages many paths to lights through noise, and neighbours half a feature apart are independent: of
-    /// their error a quarter or less is left.
-    [[nodiscard]] DepthTolerance averaged() const {
-        return {depth_tolerance(), 4 * budget_noise * settings_.tolerance};
-    }
     const Geometry& geometry_;
     const Media& media_;
     const Lighting& lighting_;

@@ -1,9 +1,9 @@
 #include "reference/reference.h"
 
-#include <algorithm>
 #include <limits>
 
 #include "reference/inscatter.h"
+#include "reference/sky_light.h"
 #include "reference/surface.h"
 
 namespace tyndall::reference {
@@ -16,6 +16,7 @@ struct Reference::Impl {
     Sky sky;
     Lighting lighting;
     InScattering scattering;
+    SkyLight sky_light;
 
     Impl(const Scene& scene_, const Settings& settings_)
         : scene(scene_),
@@ -23,33 +24,12 @@ struct Reference::Impl {
           geometry(scene, settings.shadows),
           media(scene.media),
           sky(scene, settings.ambient),
-          lighting{scene_suns(scene), scene_lamps(scene), sky.mean_radiance()},
-          scattering(geometry, media, lighting, settings) {}
+          lighting{scene_suns(scene), scene_lamps(scene), settings.sky_visibility ? dvec3(0) : sky.mean_radiance()},
+          scattering(geometry, media, lighting, settings),
+          sky_light(sky.table(), geometry, scattering, settings) {}
 
     [[nodiscard]] dvec3 surface_radiance(const Geometry::Hit& hit, dvec3 origin, dvec3 direction) const;
-    /// What is left of a light after what lies between: 0 behind what blocks it, a colour behind glass.
-    [[nodiscard]] dvec3 visible(const Surface& surface, bool casts, dvec3 to_light, double distance) const;
 };
-
-namespace {
-
-/// How far from a surface its own triangles, and those in the same plane, are not asked: corners are in single
-/// precision. m.
-double skip_at(dvec3 position) {
-    const double farthest = std::max({std::abs(position.x), std::abs(position.y), std::abs(position.z)});
-    return 1e-6 * std::max(1.0, farthest);
-}
-
-}  // namespace
-
-dvec3 Reference::Impl::visible(const Surface& surface, bool casts, dvec3 to_light, double distance) const {
-    if (!settings.shadows || !casts) return dvec3(1);
-    if (glm::dot(surface.geometric_normal, to_light) <= 0) return dvec3(0);
-    const double skip = skip_at(surface.position);
-    const dvec3 from = surface.position + skip * surface.geometric_normal;
-    if (geometry.occluded(from, to_light, distance, skip)) return dvec3(0);
-    return geometry.tint(from, to_light, distance, skip);
-}
 
 dvec3 Reference::Impl::surface_radiance(const Geometry::Hit& hit, dvec3 origin, dvec3 direction) const {
     const Surface surface = surface_at(scene, geometry, hit, origin, direction);
@@ -57,8 +37,8 @@ dvec3 Reference::Impl::surface_radiance(const Geometry::Hit& hit, dvec3 origin, 
     dvec3 radiance = surface.emissive;
     for (const Sun& sun : lighting.suns) {
         dvec3 share = reflected(surface, to_eye, sun.to_sun);
-        if (share != dvec3(0))
-            share *= visible(surface, sun.shadow, sun.to_sun, std::numeric_limits<double>::infinity());
+        if (share != dvec3(0) && sun.shadow)
+            share *= visible(geometry, surface, sun.to_sun, std::numeric_limits<double>::infinity());
         if (share != dvec3(0))
             radiance += sun.illuminance * share *
                         scattering.towards_sun(surface.position, sun.to_sun, scattering.depth_tolerance());
@@ -70,12 +50,13 @@ dvec3 Reference::Impl::surface_radiance(const Geometry::Hit& hit, dvec3 origin, 
         if (illuminance == dvec3(0) || distance == 0) continue;
         const dvec3 to_lamp = -offset / distance;
         dvec3 share = reflected(surface, to_eye, to_lamp);
-        if (share != dvec3(0)) share *= visible(surface, lamp.shadow, to_lamp, distance);
+        if (share != dvec3(0) && lamp.shadow) share *= visible(geometry, surface, to_lamp, distance);
         if (share != dvec3(0))
             radiance += illuminance * share *
                         scattering.towards_lamp(surface.position, to_lamp, distance, scattering.depth_tolerance());
     }
-    if (settings.ambient > 0) radiance += sky.reflected(surface, to_eye);
+    if (settings.ambient > 0)
+        radiance += settings.sky_visibility ? sky_light.reflected(surface, to_eye) : sky.reflected(surface, to_eye);
     return radiance;
 }
 
@@ -97,6 +78,11 @@ Reference::Ray Reference::trace(dvec3 origin, dvec3 unit_direction, double begin
     const InScattering::Result scattered = i.scattering.along(media, origin, unit_direction);
     ray.scattering = scattered.radiance;
     ray.error = scattered.error;
+    if (i.settings.sky_visibility && i.settings.ambient > 0) {
+        const InScattering::Result from_sky = i.sky_light.along(media, origin, unit_direction);
+        ray.scattering += from_sky.radiance;
+        ray.error += from_sky.error;
+    }
     ray.transmittance = glm::exp(-media.depth(ray.distance));
     if (!hit && !i.settings.black_sky) ray.background = i.sky.background(unit_direction);
     if (hit && !i.settings.black_surfaces) ray.background = i.surface_radiance(*hit, origin, unit_direction);

@@ -17,7 +17,11 @@ struct Settings {
     bool light_transmittance = true;  ///< media attenuate light on its way to the point (and to surfaces)
     ParticlePhase phase{};            ///< of all media but air
     bool shadows = true;
-    double ambient = 0.4;         ///< factor on the sky's light
+    double ambient = 0.4;  ///< factor on the sky's light
+    /// The scene and its media stand before the sky, whose light comes from where it is bright. Off: its mean comes
+    /// from everywhere, through everything.
+    bool sky_visibility = false;
+    int sky_samples = 8192;  ///< directions for each ray's air, a quarter for each lobe of its surface; from 1024
     bool black_surfaces = false;  ///< surfaces block and hide, and send no light
     bool black_sky = false;       ///< what leaves the scene sees nothing; light of the sky is `ambient`
     double tolerance = 1e-4;      ///< of the radiance of a ray, relative; absolute below `floor`
@@ -30,7 +34,7 @@ struct Settings {
 ///     L = ∫ T(0,t) σ_s(t) Σ_i p(cos θ_i) V_i(t) T_i(t) E_i(t) dt + ∫ T(0,t) e(t) dt + T(0,d) L_surface
 ///
 /// with σ_s p the sum of what the particles and the air at t scatter, and V_i a colour behind transparent surfaces
-/// (Tint), which are not seen themselves.
+/// (Tint), which are not seen themselves. The sky's light comes on top, see SkyLight.
 /// Rays go on to infinity. Thread-safe after construction; the scene must outlive it and not move.
 class Reference {
   public:

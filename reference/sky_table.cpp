@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 namespace tyndall::reference {
 namespace {
@@ -36,13 +37,38 @@ std::size_t cell(bool above, int row, int column) {
     return static_cast<std::size_t>((above ? rows + row : row) * columns + column);
 }
 
+/// The middles of all cells.
+const std::vector<dvec3>& cell_directions() {
+    static const std::vector<dvec3> directions = [] {
+        std::vector<dvec3> list(2 * rows * columns);
+        for (const bool above : {false, true})
+            for (int row = 0; row < rows; ++row)
+                for (int column = 0; column < columns; ++column)
+                    list[cell(above, row, column)] = direction(height(above, row + 0.5), column + 0.5);
+        return list;
+    }();
+    return directions;
+}
+
+/// One of the parts of a rising sum, and how far into it.
+struct Drawn {
+    int part;
+    double within, share;  ///< share of the whole sum that the part has
+};
+Drawn draw(std::span<const double> sums, double u) {
+    const double target = u * sums.back();
+    const auto at = std::upper_bound(sums.begin(), sums.end() - 1, target);
+    const double before = at == sums.begin() ? 0 : *std::prev(at), part = *at - before;
+    return {static_cast<int>(at - sums.begin()), (target - before) / part, part / sums.back()};
+}
+
 }  // namespace
 
 SkyTable::SkyTable(const std::function<dvec3(dvec3)>& radiance) : cells_(2 * rows * columns) {
     for (const bool above : {false, true})
         for (int row = 0; row < rows; ++row)
             for (int column = 0; column < columns; ++column)
-                cells_[cell(above, row, column)] = radiance(direction(height(above, row + 0.5), column + 0.5));
+                cells_[cell(above, row, column)] = radiance(cell_directions()[cell(above, row, column)]);
 
     for (const bool above : {false, true})
         for (int row = 0; row < rows; row += patch_rows)
@@ -51,7 +77,7 @@ SkyTable::SkyTable(const std::function<dvec3(dvec3)>& radiance) : cells_(2 * row
                 for (int i = row; i < row + patch_rows; ++i)
                     for (int j = column; j < column + patch_columns; ++j) {
                         const double part = solid_angle(above, i);
-                        patch.direction += part * direction(height(above, i + 0.5), j + 0.5);
+                        patch.direction += part * cell_directions()[cell(above, i, j)];
                         patch.flux += part * cells_[cell(above, i, j)];
                     }
                 patch.direction = glm::normalize(patch.direction);
@@ -77,6 +103,34 @@ dvec3 SkyTable::mean() const {
     dvec3 sum(0);
     for (const Patch& patch : patches_) sum += patch.flux;
     return sum / (4 * pi);
+}
+
+SkySampler::SkySampler(const SkyTable& table, const std::function<double(dvec3)>& lobe)
+    : table_(&table), in_row_(table.cells_.size()) {
+    double all = 0;
+    for (std::size_t i = 0, row = 0; i < table.cells_.size(); ++row) {
+        const double part = solid_angle(row >= rows, static_cast<int>(row % rows));
+        double sum = 0;
+        for (int column = 0; column < columns; ++column, ++i) {
+            const dvec3& radiance = table.cells_[i];
+            sum += part * (radiance.x + radiance.y + radiance.z) * lobe(cell_directions()[i]);
+            in_row_[i] = sum;
+        }
+        all += sum;
+        rows_.push_back(all);
+    }
+}
+
+SkySampler::Sample SkySampler::at(double u, double v) const {
+    if (rows_.empty() || !(rows_.back() > 0)) return {{0, 1, 0}, dvec3(0)};
+    const Drawn row = draw(rows_, u);
+    const Drawn column = draw(std::span(in_row_).subspan(static_cast<std::size_t>(row.part * columns), columns), v);
+    const bool above = row.part >= rows;
+    const int from_horizon = row.part % rows;
+    const double sine = std::lerp(height(above, from_horizon), height(above, from_horizon + 1), row.within);
+    const dvec3 towards = direction(sine, column.part + column.within);
+    const double density = row.share * column.share / solid_angle(above, from_horizon);
+    return {towards, table_->at(towards) / density};
 }
 
 }  // namespace tyndall::reference

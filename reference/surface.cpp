@@ -58,7 +58,23 @@ dvec3 shading_normal(const Scene& scene, const Material& material, const Interpo
     return glm::normalize(bump.x * t + bump.y * at.bitangent_sign * glm::cross(n, t) + bump.z * n);
 }
 
+/// How far from a surface its own triangles, and those in the same plane, are not asked: corners are in single
+/// precision. m.
+double skip_at(dvec3 position) {
+    const double farthest = std::max({std::abs(position.x), std::abs(position.y), std::abs(position.z)});
+    return 1e-6 * std::max(1.0, farthest);
+}
+
 }  // namespace
+
+dvec3 visible(const Geometry& geometry, const Surface& surface, dvec3 to_light, double distance) {
+    if (!geometry.impl().shadows) return dvec3(1);
+    if (glm::dot(surface.geometric_normal, to_light) <= 0) return dvec3(0);
+    const double skip = skip_at(surface.position);
+    const dvec3 from = surface.position + skip * surface.geometric_normal;
+    if (geometry.occluded(from, to_light, distance, skip)) return dvec3(0);
+    return geometry.tint(from, to_light, distance, skip);
+}
 
 Surface surface_at(const Scene& scene, const Geometry& geometry, const Geometry::Hit& hit, dvec3 origin,
                    dvec3 unit_direction) {

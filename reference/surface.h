@@ -24,6 +24,10 @@ struct Surface {
 /// directions away from the surface; 0 where the light is below the horizon.
 [[nodiscard]] dvec3 reflected(const Surface& surface, dvec3 to_eye, dvec3 to_light);
 
+/// What is left of a light `distance` metres away (or infinitely far) after what lies between it and a surface: 0
+/// behind what blocks it, a colour behind glass.
+[[nodiscard]] dvec3 visible(const Geometry& geometry, const Surface& surface, dvec3 to_light, double distance);
+
 /// The sky as a light source, for the scene's sun: clear sky with clouds and disc as the engine draws it.
 /// The model of the sky is part of the scene's description and is the shaders'; what is integrated over it is not.
 class Sky {
@@ -36,6 +40,7 @@ class Sky {
     /// What a surface reflects of it, without occlusion by the scene: the integral of sky, BRDF and cosine times
     /// the material's occlusion and the factor.
     [[nodiscard]] dvec3 reflected(const Surface& surface, dvec3 to_eye) const;
+    [[nodiscard]] const SkyTable& table() const { return table_; }  ///< empty where the factor is 0
 
   private:
     SkyTable table_;  ///< without clouds and disc

@@ -29,7 +29,7 @@ struct ReferenceOptions {
     SceneOptions scene;
     ViewOptions view;
     std::string output, layer = "color";
-    int samples = 1, threads = 0;
+    int samples = 1, threads = 0, sky_samples = reference::Settings{}.sky_samples;
     double tolerance = reference::Settings{}.tolerance;
     bool black_surfaces = false, black_sky = false;
 };
@@ -90,6 +90,8 @@ void run(const ReferenceOptions& o) {
                           .droplet_diameter = volumetrics.light.droplet_diameter},
                 .shadows = render.shadows,
                 .ambient = render.ambient,
+                .sky_visibility = render.sky_visibility,
+                .sky_samples = o.sky_samples,
                 .black_surfaces = o.black_surfaces,
                 .black_sky = o.black_sky,
                 .tolerance = o.tolerance});
@@ -113,7 +115,7 @@ void add_reference_command(CLI::App& app) {
     CLI::App* command = app.add_subcommand(
         "reference",
         "The same picture from the ground truth: double precision on the CPU, exact visibility, no GL. Of the "
-        "settings, ambient, light_transmittance, phase and its back "
+        "settings, ambient, sky_visibility, light_transmittance, phase and its back "
         "lobe, shadows and exposure_bias change it, and technique=off, which leaves the media out");
     o->scene.add_to(*command, "", "640x360");
     command->add_option("-o,--output", o->output, "OUT.exr or OUT.png")->required();
@@ -129,6 +131,12 @@ void add_reference_command(CLI::App& app) {
         ->capture_default_str();
     command->add_option("--tolerance", o->tolerance, "of the scattering of a ray, relative")
         ->check(number_in(1e-12, 0.1))
+        ->capture_default_str();
+    command
+        ->add_option("--sky-samples", o->sky_samples,
+                     "with sky_visibility: directions for each ray's air, and a quarter of that for each lobe of "
+                     "its surface")
+        ->check(CLI::Range(1024, 1 << 24))
         ->capture_default_str();
     command->add_flag("--black-surfaces", o->black_surfaces, "surfaces block and hide, and send no light");
     command->add_flag("--black-sky", o->black_sky, "nothing is seen behind the scene");

@@ -12,7 +12,7 @@
 namespace tyndall::bench_scenes {
 
 std::span<const Entry> all_scenes() {
-    static constexpr std::array<Entry, 17> kScenes{{
+    static constexpr std::array<Entry, 21> kScenes{{
         {"slats_sun", slats_sun},
         {"slats_spot", slats_spot},
         {"teapot", teapot},
@@ -22,6 +22,10 @@ std::span<const Entry> all_scenes() {
         {"lamps_open", lamps_open},
         {"lamps_shadowed", lamps_shadowed},
         {"open_sun", open_sun},
+        {"sky_room", sky_room},
+        {"sky_court", sky_court},
+        {"sky_forest", sky_forest},
+        {"sky_thin_wall", sky_thin_wall},
         {"torture_posts", torture_posts},
         {"torture_slats", torture_slats},
         {"torture_lamp_at_eye", torture_lamp_at_eye},
