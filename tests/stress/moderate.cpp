@@ -143,7 +143,7 @@ void moderate_frame(StressFrame& frame, int visit, Random& of_sequence, Random& 
             break;
     }
     RenderSettings& r = frame.options.render;
-    r.sky_visibility = false;  // truths of it are slow, and its volume is coarse (tests/gpu/sky_visibility_test.cpp)
+    r.sky_visibility = false;  // its truth is slow and its volume coarse: tests/gpu/sky_visibility_test.cpp
     r.cluster_far = std::max(r.cluster_far, 100.0f);
     r.cascade_size = 1024;
     r.cascade_distance = 60;

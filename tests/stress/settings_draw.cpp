@@ -52,8 +52,6 @@ void limit_resources(StressOptions& options) {
     at_most(r.sky_directions, 24);
     at_most(r.sky_cells, 16);
     halve_until(r.cluster_x, r.cluster_y, r.cluster_z, 20'000);
-    at_most(r.sky_directions, 24);
-    at_most(r.sky_cells, 24);
 }
 
 }  // namespace tyndall::stress
