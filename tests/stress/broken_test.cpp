@@ -114,9 +114,9 @@ INSTANTIATE_TEST_SUITE_P(
         Guard{"LampShadow", "shaders/interface/shadows.glsl", "return light_shadow_volume(light, world);",
               "return 1.0;", "scattering with shadows", 1, 20},
         Guard{"UpsampleSum", "shaders/volumetrics/reconstruction/upsample.frag", "total = dot(weights, vec4(1.0));",
-              "total = 1.1 * dot(weights, vec4(1.0));", "low resolution at pixel", 99, 308},
+              "total = 1.1 * dot(weights, vec4(1.0));", "low resolution at pixel", 1, 372},
         Guard{"HistoryMean", "shaders/volumetrics/reconstruction/temporal.frag", "dithered_half(past + (now",
-              "dithered_half(0.95 * past + (now", "history at pixel", 1, 216}),
+              "dithered_half(0.95 * past + (now", "history at pixel", 1, 260}),
     [](const auto& info) { return info.param.name; });
 
 }  // namespace
