@@ -101,7 +101,9 @@ std::vector<Image> draw_layers(Session& session, const View& view, double time,
 std::string GroundTruths::stem(Session& session, const Point& point) const {
     Digest digest;
     digest.add_file(session.scene.path);
-    digest.add(fmt::format("{} {}", point.place->camera, point.place->time));
+    const RenderSettings& render = session.options.render;
+    digest.add(
+        fmt::format("{} {} {} {}", point.place->camera, point.place->time, render.ambient, render.sky_visibility));
     if (kind_ != TruthKind::cpu) {
         digest.add(session.context->capabilities().renderer);
         digest.add(program_version());

@@ -205,6 +205,16 @@ double depth_error(const Truth& truth) {
     return error;
 }
 
+/// The march looks up a lamp's shadow once a segment: fewer than four times over the lamp's range.
+bool samples_lamps_coarsely(const StressFrame& frame) {
+    const volumetrics::Settings& v = frame.options.volumetrics;
+    return v.technique == "ray_march" && std::ranges::any_of(frame.lights, [&](const StressFrame::Lamp& lamp) {
+               const double distance = glm::distance(frame.view.eye, glm::vec3(lamp.pose[3]));
+               return lamp.light.type != LightType::sun && lamp.light.shadow &&
+                      segment_at(v, v.march.max_distance, distance) > 0.25 * lamp.light.range;
+           });
+}
+
 Bound left_out(const char* rule) {
     return {.rule = rule};
 }
@@ -268,20 +278,6 @@ Bound scattering_bound(const StressFrame& frame, const Truth& truth, const Truth
         bound.relative += 0.06;  // light volumes
     return bound;
 }
-
-namespace {
-
-/// The march looks up a lamp's shadow once a segment: fewer than four times over the lamp's range.
-bool samples_lamps_coarsely(const StressFrame& frame) {
-    const volumetrics::Settings& v = frame.options.volumetrics;
-    return v.technique == "ray_march" && std::ranges::any_of(frame.lights, [&](const StressFrame::Lamp& lamp) {
-               const double distance = glm::distance(frame.view.eye, glm::vec3(lamp.pose[3]));
-               return lamp.light.type != LightType::sun && lamp.light.shadow &&
-                      segment_at(v, v.march.max_distance, distance) > 0.25 * lamp.light.range;
-           });
-}
-
-}  // namespace
 
 // Measured where the few pixels lie along a shadow's edge: up to 0.023, with local media 0.154, of the columns of
 // froxels 0.117, of a lamp's range in few segments 0.068.

@@ -79,7 +79,7 @@ TextureRef add_lines(Frame& frame, const EpipolarPlan& plan, TextureRef table, T
     }
     TextureRef nodes = frame.passes.create("volumetrics/epipolar_nodes",
                                            {.format = GL_RG32F, .size = {texels_a_row, rows_of(plan.nodes), 1}});
-    const gl::Program& lines = frame.program(lines_program, {{"GLASS", frame.media.through_glass}});
+    const gl::Program& lines = frame.program(lines_program);
     frame.add({.name = "volumetrics/epipolar_lines",
                .program = lines,
                .sources = {{table}, {cells_seen}},
