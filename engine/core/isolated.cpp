@@ -60,7 +60,7 @@ void limit(__rlimit_resource resource, std::size_t most) {
 // The address sanitizer reserves terabytes of addresses for itself, and takes more whenever it likes: under it only
 // time is limited.
 void limit_memory([[maybe_unused]] std::size_t more) {
-#if !defined(__SANITIZE_ADDRESS__)
+#if !defined(TYNDALL_SANITIZED)
     std::size_t pages = 0;
     if (std::FILE* file = std::fopen("/proc/self/statm", "r")) {
         if (std::fscanf(file, "%zu", &pages) != 1) pages = 0;

@@ -19,8 +19,9 @@ namespace fs = std::filesystem;
 struct Guard {
     std::string name, file;
     std::string text, without;
-    std::string says;         ///< part of the line that reports it
-    int seed = 1, first = 0;  ///< where it is met
+    std::string says;   ///< part of the line that reports it
+    std::string where;  ///< the frames that meet it, for tyndall_stress
+    int first = 0;
 };
 
 void PrintTo(const Guard& guard, std::ostream* out) {
@@ -69,8 +70,8 @@ class BrokenBuild : public ::testing::TestWithParam<Guard> {
 TEST_P(BrokenBuild, IsCaughtAndTheCommandRepeatsIt) {
     remove(GetParam());
     if (HasFatalFailure()) return;
-    const Result found = run(fmt::format("TYNDALL_DATA={} {} --first {} --frames 40 --failures 1 --seed {}",
-                                         folder_.string(), TYNDALL_STRESS, GetParam().first, GetParam().seed));
+    const Result found = run(fmt::format("TYNDALL_DATA={} {} {} --first {} --frames 40 --failures 1",
+                                         folder_.string(), TYNDALL_STRESS, GetParam().where, GetParam().first));
     EXPECT_EQ(found.exit_code, 1) << found.output;
     EXPECT_NE(found.output.find(GetParam().says), std::string::npos) << found.output;
 
@@ -84,39 +85,43 @@ TEST_P(BrokenBuild, IsCaughtAndTheCommandRepeatsIt) {
 }
 
 // What keeps numbers finite and light in place.
-INSTANTIATE_TEST_SUITE_P(Guards, BrokenBuild,
-                         ::testing::Values(Guard{"LampRadius", "shaders/lib/lamp_segment.glsl",
-                                                 "float sphere = max(radius, LAMP_MIN_RADIUS);",
-                                                 "float sphere = radius;", "scattering at pixel", 2, 60},
-                                           Guard{"HeightExponent", "shaders/lib/transmittance.glsl",
-                                                 "exp(min((base - y) / falloff, HEIGHT_MAX_EXPONENT))",
-                                                 "exp((base - y) / falloff)", "at pixel", 1, 20},
-                                           Guard{"HalfMaximum", "shaders/lib/pack.glsl",
-                                                 "vec4 limited = clamp(v, vec4(-HALF_MAX), vec4(HALF_MAX));",
-                                                 "vec4 limited = v;", "65504 expected", 1, 56},
-                                           Guard{"ClearestChannel", "shaders/volumetrics/light/segment.glsl",
-                                                 "if (clearest_end > visible_end)", "if (false)",
-                                                 "the ground truth", 4, 68}),
-                         [](const auto& info) { return info.param.name; });
+INSTANTIATE_TEST_SUITE_P(
+    Guards, BrokenBuild,
+    ::testing::Values(
+        Guard{"LampRadius", "shaders/lib/lamp_segment.glsl", "float sphere = max(radius, LAMP_MIN_RADIUS);",
+              "float sphere = radius;", "at pixel",
+              "--where feature=extreme --where technique=ray_march --where lamp_integration=segment", 424},
+        Guard{"HeightExponent", "shaders/lib/transmittance.glsl",
+              "exp(min((base - y) / falloff, HEIGHT_MAX_EXPONENT))", "exp((base - y) / falloff)", "at pixel",
+              "--where feature=extreme"},
+        Guard{"HalfMaximum", "shaders/lib/pack.glsl", "vec4 limited = clamp(v, vec4(-HALF_MAX), vec4(HALF_MAX));",
+              "vec4 limited = v;", "65504 expected", "--where feature=extreme --where technique=ray_march"},
+        Guard{"ClearestChannel", "shaders/volumetrics/light/segment.glsl", "if (clearest_end > visible_end)",
+              "if (false)", "the ground truth", "--where feature=plain --where technique=ray_march", 2048}),
+    [](const auto& info) { return info.param.name; });
 
 // Pictures that are finite, in range and wrong.
 INSTANTIATE_TEST_SUITE_P(
     Physics, BrokenBuild,
     ::testing::Values(
         Guard{"PhaseSign", "shaders/lib/phase.glsl", "float signed_cos_theta = g < 0.0f ? -cos_theta : cos_theta;",
-              "float signed_cos_theta = g < 0.0f ? cos_theta : -cos_theta;", "the ground truth", 1, 4},
+              "float signed_cos_theta = g < 0.0f ? cos_theta : -cos_theta;", "the ground truth",
+              "--where feature=plain --where technique=ray_march --where phase=henyey_greenstein"},
         Guard{"LampRange", "shaders/lib/lamp_segment.glsl", "segment.weight *= max(total - cut, 0.0f)",
-              "segment.weight *= total", "the ground truth", 1, 4},
+              "segment.weight *= total", "the ground truth", "--where feature=plain --where technique=ray_march"},
         Guard{"LocalDensity", "shaders/volumetrics/media/local_media.glsl", "float density = 1.0;",
-              "float density = 0.8;", "the ground truth", 1, 12},
+              "float density = 0.8;", "the ground truth", "--where feature=plain --where technique=ray_march"},
         Guard{"FilterSum", "shaders/volumetrics/reconstruction/filter.frag", "            total += weight;",
-              "            total += 1.1 * weight;", "filter at pixel", 1, 100},
+              "            total += 1.1 * weight;", "filter at pixel", "--where feature=filter"},
         Guard{"LampShadow", "shaders/interface/shadows.glsl", "return light_shadow_volume(light, world);",
-              "return 1.0;", "scattering with shadows", 1, 20},
+              "return 1.0;", "scattering with shadows",
+              "--where feature=plain --where technique=ray_march --where shadows=true"},
         Guard{"UpsampleSum", "shaders/volumetrics/reconstruction/upsample.frag", "total = dot(weights, vec4(1.0));",
-              "total = 1.1 * dot(weights, vec4(1.0));", "low resolution at pixel", 1, 372},
+              "total = 1.1 * dot(weights, vec4(1.0));", "low resolution at pixel",
+              "--where feature=low_resolution --where technique=ray_march"},
         Guard{"HistoryMean", "shaders/volumetrics/reconstruction/temporal.frag", "dithered_half(past + (now",
-              "dithered_half(0.95 * past + (now", "history at pixel", 1, 260}),
+              "dithered_half(0.95 * past + (now", "history at pixel",
+              "--where feature=history --where technique=ray_march"}),
     [](const auto& info) { return info.param.name; });
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "draw_scene.h"
+#include "engine/core/error.h"
 
 namespace tyndall::stress {
 namespace {
@@ -33,6 +34,14 @@ std::string text(const Medium& medium) {
     return line + "\n";
 }
 
+nlohmann::json settings_of(const StressFrame& frame) {
+    StressOptions options = frame.options;
+    SettingsSet settings;
+    settings.add(volumetrics::settings_table(), &options.volumetrics);
+    settings.add(render_settings_table(), &options.render);
+    return settings.to_json();
+}
+
 }  // namespace
 
 std::string describe(const StressFrame& frame) {
@@ -44,11 +53,19 @@ std::string describe(const StressFrame& frame) {
                                   text(forward), glm::degrees(view.yfov), view.znear);
     for (const auto& light : frame.lights) all += text(light);
     for (const Medium& medium : frame.media) all += text(medium);
-    StressOptions options = frame.options;
-    SettingsSet settings;
-    settings.add(volumetrics::settings_table(), &options.volumetrics);
-    settings.add(render_settings_table(), &options.render);
-    return all + "  " + settings.to_json().dump() + "\n";
+    return all + "  " + settings_of(frame).dump() + "\n";
+}
+
+bool has(const StressFrame& frame, std::string_view condition) {
+    static constexpr const char* features[] = {"plain", "filter", "history", "low_resolution"};
+    nlohmann::json values = settings_of(frame);
+    values["feature"] = frame.comparable ? features[static_cast<int>(frame.feature)] : "extreme";
+    const std::size_t equals = condition.find('=');
+    const auto found = values.find(condition.substr(0, equals));
+    if (equals == condition.npos || found == values.end())
+        throw Error(fmt::format("--where {}: KEY=VALUE expected, KEY a setting or feature", condition));
+    const std::string_view value = condition.substr(equals + 1);
+    return found->is_string() ? found->get<std::string>() == value : found->dump() == value;
 }
 
 }  // namespace tyndall::stress

@@ -18,7 +18,20 @@ struct Options {
     int frames = 2000, first = 0, only = -1, most_failures = 10;
     std::uint64_t seed = 1;
     bool verbose = false;
+    std::vector<std::string> where;
 };
+
+/// All frames of a sequence are as its first one in what is asked for.
+bool wanted(const Options& options, int number) {
+    const StressFrame frame = make_frame(options.seed, number - number % sequence_length);
+    return std::ranges::all_of(options.where, [&](const auto& condition) { return has(frame, condition); });
+}
+
+std::string where(const Options& options) {
+    std::string all;
+    for (const std::string& condition : options.where) all += " --where " + condition;
+    return all;
+}
 
 /// What to type to see the failure again.
 std::string command(const Options& options, const std::string& program, const std::string& frames) {
@@ -33,23 +46,28 @@ double seconds_since(std::chrono::steady_clock::time_point begin) {
 
 int run(const Options& options, const std::string& program) {
     const bool one = options.only >= 0;
-    const int first = one ? options.only : options.first, end = first + (one ? 1 : options.frames);
+    const int first = one ? options.only : options.first, frames = one ? 1 : options.frames;
     const auto begin = std::chrono::steady_clock::now();
     init_logging();
     spdlog::set_level(spdlog::level::err);  // the driver's messages are findings
     const auto context = create_context({});
     Run run(options.seed);
     for (int before = first - first % sequence_length; before < first; ++before) run.draw(before);
-    for (int number = first; number < end && run.totals.failed < options.most_failures; ++number) {
+    // A condition that no frame meets ends after the frames that it may look through.
+    const int end = first + (options.where.empty() ? frames : 100 * frames);
+    for (int number = first;
+         number < end && run.totals.frames < frames && run.totals.failed < options.most_failures; ++number) {
+        if (!one && !wanted(options, number)) continue;
         const auto frame_begin = std::chrono::steady_clock::now();
         const Findings findings = run.check(number);
         if (one) fmt::print("frame {}:\n{}", number, describe(make_frame(options.seed, number)));
         if (options.verbose) fmt::print("frame {}: {:.1f} ms\n", number, 1e3 * seconds_since(frame_begin));
         if (findings.empty()) continue;
         const bool alone = one || run.fails_alone(number);
-        const std::string again = command(options, program,
-                                          alone ? fmt::format("--only {}", number)
-                                                : fmt::format("--first {} --frames {}", first, number - first + 1));
+        const std::string again =
+            command(options, program,
+                    alone ? fmt::format("--only {}", number)
+                          : fmt::format("--first {} --frames {}{}", first, run.totals.frames, where(options)));
         for (const std::string& finding : findings) fmt::print("frame {}: {}; {}\n", number, finding, again);
     }
     const Totals& t = run.totals;
@@ -57,6 +75,10 @@ int run(const Options& options, const std::string& program) {
                run.tally().table(), t.frames, t.failed, seconds_since(begin), t.depth_pixels);
     if (t.frames >= 200 && (t.depth_pixels == 0 || run.tally().pixels() == 0)) {
         fmt::print("nothing was compared\n");
+        return 1;
+    }
+    if (t.frames < frames && t.failed == 0) {
+        fmt::print("{} frames of {} were found for{}\n", t.frames, frames, where(options));
         return 1;
     }
     return t.failed == 0 ? 0 : 1;
@@ -74,6 +96,10 @@ int main(int argc, char** argv) {
     app.add_option("--first", options.first, "number of the first frame")->check(CLI::NonNegativeNumber);
     app.add_option("--only", options.only, "number of the only frame")->check(CLI::NonNegativeNumber);
     app.add_option("--failures", options.most_failures, "stop after so many")->check(CLI::PositiveNumber);
+    app.add_option(
+        "--where", options.where,
+        "KEY=VALUE: only sequences whose first frame has this setting, or feature: plain, filter, history "
+        "or low_resolution, which are compared with the ground truth, or extreme");
     app.add_flag("--verbose", options.verbose, "the time of each frame");
     try {
         app.parse(argc, argv);

@@ -6,9 +6,17 @@
 namespace tyndall::stress {
 namespace {
 
+/// Each choice has its own draw and the greatest wins: one choice more takes frames from the others and shifts none
+/// among them (highest random weight, Thaler and Ravishankar 1998).
+int draw_choice(const Setting& setting, const Random& random) {
+    const auto weight = [&](const auto& choice) { return random.fork(choice).unit(); };
+    const auto greatest = std::ranges::max_element(setting.choices, {}, weight);
+    return static_cast<int>(greatest - setting.choices.begin());
+}
+
 double draw(const Setting& setting, Random random) {
     if (setting.type == SettingType::boolean) return random.below(2);
-    if (setting.type == SettingType::choice) return random.below(static_cast<int>(setting.choices.size()));
+    if (setting.type == SettingType::choice) return draw_choice(setting, random);
     // Sides of shadow maps cost most by far.
     const bool resource = setting.effect == SettingEffect::resource, map = resource && setting.unit == "px";
     const double u = map ? std::pow(random.unit(), 16) : resource ? std::pow(random.unit(), 2) : random.unit();

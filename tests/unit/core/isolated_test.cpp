@@ -56,7 +56,7 @@ TEST(IsolatedWork, TimeIsLimited) {
     EXPECT_LT(std::chrono::steady_clock::now() - began, std::chrono::seconds(5));
 }
 
-#if !defined(__SANITIZE_ADDRESS__)
+#if !defined(TYNDALL_SANITIZED)
 TEST(IsolatedWork, MemoryIsLimited) {
     const auto eat = [](const Send& send) {
         std::vector<std::vector<char>> eaten;

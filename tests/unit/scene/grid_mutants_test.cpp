@@ -123,7 +123,7 @@ class GridMutants : public SceneFolderTest {
             "%s: %d mutants refused, %d read as grids; the slowest took %.2f s; children held %.0f MiB at most\n",
             format, outcome.refused, outcome.whole, outcome.slowest, mebibytes);
         EXPECT_GT(outcome.refused, 0);
-#if !defined(__SANITIZE_ADDRESS__)
+#if !defined(TYNDALL_SANITIZED)
         EXPECT_LT(mebibytes, 1024);
 #endif
     }
