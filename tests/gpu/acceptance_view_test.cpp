@@ -25,6 +25,7 @@ class AcceptanceView : public GlTest {
         fog.sigma_s = glm::vec3(0.02F);
         builder_.scene.media.push_back(fog);
         options_.layer = "acceptance";
+        volumetrics_.settings.technique = "ray_march";
         volumetrics_.settings.temporal.mode = Temporal::acceptance;
         volumetrics_.settings.temporal.weight = 0.5F;  // no more than the camera's travel leaves
         volumetrics_.settings.noise.kind = Noise::none;

@@ -44,6 +44,7 @@ class Motion : public GlTest {
         Medium fog;
         fog.sigma_s = glm::vec3(0.01F);
         builder_.scene.media.push_back(fog);
+        volumetrics_.settings.technique = "ray_march";  // one that asks for motion
         volumetrics_.settings.temporal.mode = Temporal::ema;
         renderer_.prepare(builder_.finish());
     }

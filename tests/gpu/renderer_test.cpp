@@ -127,6 +127,7 @@ TEST_F(RendererTest, AnUnshadowedLampNeedsNoAtlas) {
 }
 
 TEST_F(RendererTest, MediaBringTheirPassesAndOnlyTheirs) {
+    volumetrics_.settings.technique = "ray_march";
     sun();
     medium(Medium::Shape::global);
     draw();
@@ -262,6 +263,7 @@ TEST_F(RendererTest, ACutForgetsHistoryAndKeepsLightVolumes) {
     lamp();
     medium(Medium::Shape::global);
     medium(Medium::Shape::sphere);
+    volumetrics_.settings.technique = "ray_march";
     volumetrics_.settings.temporal.mode = volumetrics::Temporal::acceptance;
     options_.layer = "acceptance";
     const auto light_volumes = {"volumetrics/sun_volume", "volumetrics/lamp_volumes"};

@@ -79,7 +79,9 @@ int epipolar_level(EpipolarRay ray, int cell, int last) {
 float epipolar_share(EpipolarRay ray, Gathering light) {
     vec2 places = vec2(epipolar_place(ray, light.begin), epipolar_place(ray, light.end));
     int begin = min(int(places.x), ray.last);
-    int last = clamp(int(places.y - 0.5), begin, ray.last);
+    // The cell in which a ray meets a surface has its light end there too, and rounding would say whether before or behind
+    // it: it is as the one before. So is the last cell of each part that ends within one.
+    int last = clamp(int(places.y - 1.0), begin, ray.last);
     int cell = begin;
     // The only cell may have its middle beyond the part's end, as near the axis of parallel light.
     float slope = ray.slope;

@@ -251,6 +251,7 @@ Frame StubHost::render(const Settings& settings) {
 
 Settings plain_settings(int steps) {
     Settings settings;
+    settings.technique = "ray_march";
     settings.march.steps = steps;
     settings.noise.kind = volumetrics::Noise::none;
     settings.filter.kernel = volumetrics::Filter::none;

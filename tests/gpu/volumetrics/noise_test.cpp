@@ -71,6 +71,7 @@ void main() {
     }
     static Settings with(Noise noise, NoiseTime time = NoiseTime::fixed) {
         Settings settings;
+        settings.technique = "ray_march";
         settings.noise.kind = noise;
         settings.noise.time = time;
         return settings;

@@ -29,11 +29,13 @@ class VolumetricsPasses : public GlTest {
 };
 
 TEST_F(VolumetricsPasses, WithoutMediumNothingIsAddedOrHeld) {
+    Settings settings;
+    settings.technique = "ray_march";
     for (int i = 0; i < 2; ++i) {
         host.global = {fog};
-        EXPECT_GT(host.render(Settings{}).persistent_bytes, 0U);
+        EXPECT_GT(host.render(settings).persistent_bytes, 0U);
         host.global = i == 0 ? std::vector<GlobalMedium>{} : std::vector<GlobalMedium>{GlobalMedium{}};
-        const Frame frame = host.render(Settings{});
+        const Frame frame = host.render(settings);
         EXPECT_THAT(frame.live_passes, IsEmpty());
         EXPECT_THAT(frame.skipped,
                     UnorderedElementsAre(Key("volumetrics/noise_volume"), Key("volumetrics/depth_downsample"),
@@ -60,6 +62,7 @@ TEST_F(VolumetricsPasses, TechniqueOffIsAsIfThereWereNoMedium) {
 TEST_F(VolumetricsPasses, EachPassIsThereWhenItIsNeeded) {
     host.global = {fog};
     Settings settings;
+    settings.technique = "ray_march";
     settings.filter.kernel = volumetrics::Filter::none;
     settings.temporal.mode = volumetrics::Temporal::off;
     EXPECT_THAT(host.render(settings).live_passes, ElementsAre("volumetrics/march"));

@@ -35,6 +35,15 @@ TEST(FewLamps, AShareOfAllIsTheLeast) {
     EXPECT_THAT(chosen(lamps, 0, 8, 0.2F), IsEmpty());
 }
 
+// Its beam has edges.
+TEST(FewLamps, ANarrowSpotNeedsNoShadow) {
+    std::vector<Lamp> spots = lamps;
+    spots[3].cos_outer = 0.6F;
+    EXPECT_THAT(chosen(spots, 0, 1, 0), ElementsAre(5));
+    spots[3].cos_outer = 0.9F;
+    EXPECT_THAT(chosen(spots, 0, 1, 0), ElementsAre(9));
+}
+
 // The far lamp sends 20 exp(-4), the near one 25 exp(-0.2).
 TEST(FewLamps, HazeHidesFarOnes) {
     EXPECT_THAT(chosen(lamps, 0.1F, 2, 0), ElementsAre(3, 5));

@@ -5,6 +5,15 @@
 #include <numeric>
 
 namespace tyndall::volumetrics {
+namespace {
+
+constexpr float narrow_cosine = 0.7F;  // of 45 degrees
+
+bool has_sharp_edges(const Lamp& lamp) {
+    return lamp.shadow || lamp.cos_outer > narrow_cosine;
+}
+
+}  // namespace
 
 std::vector<Lamp> choose_few_lamps(const std::vector<Lamp>& lamps, glm::vec3 eye, float sigma_t, int most,
                                    float least) {
@@ -17,7 +26,7 @@ std::vector<Lamp> choose_few_lamps(const std::vector<Lamp>& lamps, glm::vec3 eye
     const float total = std::accumulate(light.begin(), light.end(), 0.0F);
     std::vector<std::size_t> chosen;
     for (std::size_t i = 0; i < lamps.size(); ++i)
-        if (lamps[i].shadow && light[i] > least * total) chosen.push_back(i);
+        if (has_sharp_edges(lamps[i]) && light[i] > least * total) chosen.push_back(i);
     std::ranges::stable_sort(chosen, [&](std::size_t a, std::size_t b) { return light[a] > light[b]; });
     chosen.resize(std::min(chosen.size(), static_cast<std::size_t>(most)));
     std::ranges::sort(chosen);
