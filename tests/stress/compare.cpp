@@ -10,12 +10,19 @@
 #include "bounds.h"
 #include "draw_scene.h"
 #include "moderate.h"
+#include "shaders/lib/glm_subset.h"
+
+TYNDALL_GLSL_BEGIN
+#include "shaders/engine/sky_model.glsl"
+TYNDALL_GLSL_END
 
 namespace tyndall::stress {
 namespace {
 
 constexpr const char* limit_white =
     "limit: light 16 stops above white is cut off before filters, means and up-sampling take their share of it";
+constexpr const char* limit_sky =
+    "limit: a sky 16 stops above white is cut off where it is stored, so that its light cannot be doubled";
 constexpr const char* fault_density =
     "fault: local emission and extinction beyond 65504 are cut off in froxels, so that their ratio is lost";
 constexpr const char* dark = "dark: no light, so that it is certain that there is none and nothing else";
@@ -37,6 +44,17 @@ bool exceeds_froxels(const Medium& medium, float light_unit) {
     const glm::vec3 emission = 2.0f / light_unit * medium.emission;
     const float most = std::max({sigma_t.x, sigma_t.y, sigma_t.z, emission.x, emission.y, emission.z});
     return is_bounded(medium) && most > 0 && noise * most * density > 0.9f * half_max;
+}
+
+/// The sky is brightest where the sun stands, or over the horizon below which it stands.
+bool exceeds_sky(const Scene& scene, float ambient) {
+    const auto index = scene.sun();
+    if (!index || ambient == 0) return false;
+    const glm::vec3 to_sun = glm::normalize(glm::vec3(node_pose(scene, scene.lights[*index].node)[2]));
+    const glm::vec3 brightest = glm::normalize(glm::vec3(to_sun.x, std::max(to_sun.y, 0.01f), to_sun.z));
+    const float lux = glm::dot(scene.lights[*index].intensity, glm::vec3(0.2126f, 0.7152f, 0.0722f));
+    const glm::vec3 radiance = glsl::sky_radiance(brightest, to_sun, lux) / scene.light_unit();
+    return std::max({radiance.x, radiance.y, radiance.z}) > 0.9f * half_max;
 }
 
 /// "scattering, local media".
@@ -215,6 +233,10 @@ void Compare::check_doubled(const StressFrame& frame, Findings& findings) {
     const Layers once = draw(frame, scene, frame.options, 1).back();
     for (Light& light : scene.lights) light.intensity *= 2;
     for (Medium& medium : scene.media) medium.emission *= 2;
+    if (exceeds_sky(scene, frame.options.render.ambient)) {
+        tally.leave_out(limit_sky, frame.size.x * frame.size.y);
+        return;
+    }
     const Layers twice = draw(frame, scene, frame.options, 1).back();
     const int pixels = frame.size.x * frame.size.y;
     const float brightest = std::ranges::max(twice.scattering.pixels);
