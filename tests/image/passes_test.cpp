@@ -32,11 +32,14 @@ struct Frame {
 
 class Passes : public ::testing::Test {
   protected:
+    /// With the march, where no technique is named.
     Frame draw(const SceneSpec& spec, std::vector<std::string> more = {}, const std::string& out = "out.exr") {
         write_scene(folder_ / "scene.gltf", spec);
         std::vector<std::string> arguments{
             "render",  (folder_ / "scene.gltf").string(), "-o", (folder_ / out).string(), "--size", "64x36",
             "--stats", (folder_ / "stats.json").string()};
+        if (std::ranges::find(more, "--technique") == more.end())
+            arguments.insert(arguments.end(), {"--technique", "ray_march"});
         arguments.insert(arguments.end(), more.begin(), more.end());
         const CommandResult result = run_tyndall(arguments);
         EXPECT_EQ(result.exit_code, 0) << result.err;
@@ -65,13 +68,32 @@ const std::vector<std::string> of_a_global_medium{"volumetrics/march",          
 
 TEST_F(Passes, NoMediumIsBitIdenticalToVolumetricsOff) {
     const SceneSpec spec{.sun = true, .lamps = {lamp}};
-    const Frame with = draw(spec, {"--technique", "ray_march"}, "with.exr");
+    const Frame with = draw(spec, {"--technique", "auto"}, "with.exr");
     const Frame without = draw(spec, {"--technique", "off"}, "off.exr");
     EXPECT_EQ(with.live, without.live);
     EXPECT_FALSE(runs(with, "volumetrics/"));
     EXPECT_EQ(with.stats["memory"], without.stats["memory"]);
     EXPECT_EQ(with.stats["memory"]["volumetrics_persistent"], 0);
     EXPECT_EQ(picture("with.exr").pixels, picture("off.exr").pixels);
+}
+
+TEST_F(Passes, AutoRunsWhatEachLightNeeds) {
+    const std::vector<std::string> automatic{"--technique", "auto"};
+    const auto passes = [&](const SceneSpec& spec) { return with_prefix(draw(spec, automatic), "volumetrics/"); };
+    const std::vector<std::string> lines{"volumetrics/epipolar_lines", "volumetrics/epipolar",
+                                         "volumetrics/composite"};
+    std::vector<std::string> froxels{"volumetrics/froxel_columns",
+                                     "volumetrics/epipolar",
+                                     "volumetrics/many_lamps_light",
+                                     "volumetrics/many_lamps_history",
+                                     "volumetrics/many_lamps_accumulate",
+                                     "volumetrics/many_lamps",
+                                     "volumetrics/lamp_cores",
+                                     "volumetrics/composite"};
+    EXPECT_THAT(passes({.sun = true, .media = global_medium}), UnorderedElementsAreArray(lines));
+    EXPECT_THAT(passes({.lamps = {lamp, lamp, lamp}, .media = global_medium}), UnorderedElementsAreArray(froxels));
+    EXPECT_THAT(passes({.lamps = {lamp_behind}, .media = global_medium}),
+                UnorderedElementsAreArray({"volumetrics/epipolar", "volumetrics/composite"}));
 }
 
 TEST_F(Passes, SkippedPassesSayWhy) {

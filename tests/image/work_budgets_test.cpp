@@ -14,6 +14,7 @@
 #include "engine/core/files.h"
 #include "support/command.h"
 #include "support/scenes.h"
+#include "volumetrics/settings.h"
 
 namespace tyndall::test {
 namespace {
@@ -77,13 +78,13 @@ INSTANTIATE_TEST_SUITE_P(Table, WorkBudgets, ::testing::ValuesIn(read_work_budge
 TEST(WorkBudgetTable, HasEveryTechniqueAndEveryPlace) {
     std::vector<std::string> techniques, places;
     for (const WorkBudget& row : read_work_budgets()) {
-        std::string technique = "ray_march", camera;
+        std::string technique = volumetrics::Settings{}.technique, camera;
         for (std::size_t i = 0; i + 1 < row.arguments.size(); ++i) {
             if (row.arguments[i] == "--technique") technique = row.arguments[i + 1];
             if (row.arguments[i] == "--camera") camera = row.arguments[i + 1];
         }
         techniques.push_back(technique);
-        if (technique == "ray_march") places.push_back(camera);
+        if (technique == volumetrics::Settings{}.technique) places.push_back(camera);
         EXPECT_FALSE(row.work.empty()) << row.name << ": no counts yet, run scripts/work_budgets";
     }
     for (const std::string& name : lines_of({"list", "techniques"}))

@@ -188,7 +188,7 @@ class SmallGame : public ::testing::Test {
         write_scene(folder_ / "scene.gltf",
                     {.sun = true, .media = R"([{"shape":"global","scattering":[0.01,0.01,0.01]}])"});
         game_.emplace(std::vector<std::string>{(folder_ / "scene.gltf").string(), "--size", "448x540", "--scale",
-                                               "0.5", "--preset", "balanced", "--set", "steps=2", "--set",
+                                               "0.5", "--technique", "ray_march", "--set", "steps=2", "--set",
                                                "temporal=off"});
     }
     TemporaryFolder folder_;

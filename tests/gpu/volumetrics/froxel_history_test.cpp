@@ -32,6 +32,7 @@ class VolumetricsFroxelHistory : public GlTest {
         s.froxels.y = 9;
         s.froxels.z = 24;
         s.froxels.far = 40;
+        s.froxels.distribution = volumetrics::DepthDistribution::exponential;
         s.froxels.history = history;
         return s;
     }

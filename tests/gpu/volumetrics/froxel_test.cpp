@@ -27,6 +27,7 @@ class VolumetricsFroxel : public GlTest {
         settings.technique = "froxel";
         settings.froxels.x = columns_x;
         settings.froxels.y = columns_y;
+        settings.froxels.distribution = volumetrics::DepthDistribution::exponential;
         return settings;
     }
 

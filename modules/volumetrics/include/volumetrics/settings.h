@@ -80,9 +80,9 @@ struct TemporalSettings {
 };
 /// Of local media, of the technique froxel, and of the fog in front of transparents.
 struct FroxelSettings {
-    int x = 160, y = 90, z = 64;  ///< 8 … 512, 8 … 512, 8 … 256 froxels
-    float far = 128;              ///< m, 4 … 4096 of view depth
-    DepthDistribution distribution = DepthDistribution::exponential;
+    int x = 80, y = 45, z = 64;  ///< 8 … 512, 8 … 512, 8 … 256 froxels
+    float far = 128;             ///< m, 4 … 4096 of view depth
+    DepthDistribution distribution = DepthDistribution::automatic;
     /// Relative thickness of the slices in each eighth of them: any positive numbers make a rising curve.
     float curve_1 = 0.3f, curve_2 = 0.5f, curve_3 = 0.7f, curve_4 = 1, curve_5 = 1.5f, curve_6 = 2.5f, curve_7 = 6,
           curve_8 = 16;
@@ -142,7 +142,7 @@ struct ReferenceSettings {
 };
 
 struct Settings {
-    std::string technique = "ray_march";  ///< the name of one of those in technique.h
+    std::string technique = "auto";  ///< the name of one of those in technique.h
     MarchSettings march = {};
     LightSettings light = {};
     NoiseSettings noise = {};
