@@ -1,4 +1,4 @@
-// First step of a light volume: the optical depth of the local media in each slab between two texels along a light's ray.
+// First step of a light volume: adds the optical depth of a local medium in each slab between two texels along a light's ray.
 // Texel k = 0 is where the rays begin and holds 0. light_volume_sum.comp adds the slabs up.
 #include "shaders/lib/pack.glsl"
 #include "shaders/lib/work.glsl"
@@ -8,15 +8,16 @@
 layout(local_size_x = 8, local_size_y = 8, local_size_z = 4) in;
 
 #if CHROMATIC
-layout(rgba16f, binding = 0) writeonly uniform image3D volume;
+layout(rgba16f, binding = 0) uniform image3D volume;
 #else
-layout(r16f, binding = 0) writeonly uniform image3D volume;
+layout(r16f, binding = 0) uniform image3D volume;
 #endif
 
 uniform ivec3 origin;  // of the light's part of the volume, texels
 uniform ivec3 size;
-uniform uint first_medium;
-uniform uint media_count;
+uniform uint medium_index;
+uniform ivec3 first_texel;  // that the medium may reach
+uniform ivec3 end_texel;
 #if LAMP
 uniform vec3 lamp_position;
 uniform vec4 lamp_window;  // see light_volume.glsl
@@ -31,35 +32,26 @@ const int MOST_GRID_SAMPLES = 4;
 
 // sigma_t int density dt over the segment, `across` metres wide, in closed form where density is constant.
 vec3 slab_optical_depth(vec3 from, vec3 direction, float path_length, float across) {
-    vec3 depth = vec3(0.0);
-    vec3 middle = from + direction * (0.5 * path_length);
-    for (uint i = first_medium; i < first_medium + media_count; ++i) {
-        vec3 p = to_shape(local_media[i], middle);
-        float reach = shape_radius(local_media[i]) + 0.5 * path_length;
-        if (dot(p, p) > reach * reach) continue;
-        LocalMedium medium = local_media[i];
-        vec2 inside = inside_shape(medium, from, direction, 0.0, path_length);
-        if (inside.x >= inside.y) continue;
-        float density = 1.0;
-        if (has_grid(medium)) {
-            density = mean_grid(medium, from, direction, inside.x, inside.y, across, MOST_GRID_SAMPLES);
-        } else if (!is_homogeneous(medium)) {
-            count_work(WORK_MEDIUM_SAMPLES, uint(SAMPLES));
-            density = 0.0;
-            for (int k = 0; k < SAMPLES; ++k) {
-                float t = mix(inside.x, inside.y, (float(k) + 0.5) / float(SAMPLES));
-                density += local_density(medium, from + direction * t) / float(SAMPLES);
-            }
+    LocalMedium medium = local_media[medium_index];
+    vec2 inside = inside_shape(medium, from, direction, 0.0, path_length);
+    if (inside.x >= inside.y) return vec3(0.0);
+    float density = 1.0;
+    if (has_grid(medium)) {
+        density = mean_grid(medium, from, direction, inside.x, inside.y, across, MOST_GRID_SAMPLES);
+    } else if (!is_homogeneous(medium)) {
+        count_work(WORK_MEDIUM_SAMPLES, uint(SAMPLES));
+        density = 0.0;
+        for (int k = 0; k < SAMPLES; ++k) {
+            float t = mix(inside.x, inside.y, (float(k) + 0.5) / float(SAMPLES));
+            density += local_density(medium, from + direction * t) / float(SAMPLES);
         }
-        depth += local_sigma_t(medium) * (density * (inside.y - inside.x));
     }
-    return depth;
+    return local_sigma_t(medium) * (density * (inside.y - inside.x));
 }
 
 void main() {
-    ivec3 texel = ivec3(gl_GlobalInvocationID);
-    if (any(greaterThanEqual(texel, size))) return;
-    vec3 depth = vec3(0.0);
+    ivec3 texel = first_texel + ivec3(gl_GlobalInvocationID);
+    if (any(greaterThanEqual(texel, end_texel))) return;
     if (texel.z > 0) {
 #if LAMP
         // One texel of border all round.
@@ -76,8 +68,10 @@ void main() {
         vec3 direction = along / path_length;
         float across = length(volume_to_world[0].xyz) / float(size.x);
 #endif
-        depth = slab_optical_depth(from, direction, path_length, across);
+        vec3 depth = slab_optical_depth(from, direction, path_length, across);
+        if (any(greaterThan(depth, vec3(0.0))))
+            imageStore(volume, origin + texel,
+                       round_to_half(vec4(min(imageLoad(volume, origin + texel).rgb + depth, vec3(HALF_MAX)), 1.0)));
     }
-    imageStore(volume, origin + texel, round_to_half(vec4(depth, 1.0)));
     flush_work();
 }

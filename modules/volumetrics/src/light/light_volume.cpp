@@ -6,6 +6,7 @@
 #include <cstring>
 #include <functional>
 
+#include "media/shape.h"
 #include "shaders/shared/bindings.h"
 
 namespace tyndall::volumetrics {
@@ -25,12 +26,31 @@ const ProgramRegistry::Registration slabs_registration(slabs_program), sum_regis
 /// Texels of a group of the two; of the second, whole columns.
 constexpr glm::ivec3 slabs_group{8, 8, 4}, sum_group{8, 8, 1 << 20};
 
-void dispatch(const gl::Program& program, glm::ivec3 origin, glm::ivec3 size, glm::ivec3 group) {
-    program.set("origin", origin);
-    program.set("size", size);
+void dispatch(const gl::Program& program, glm::ivec3 texels, glm::ivec3 group) {
     program.use();
-    const glm::uvec3 groups((size + group - 1) / group);
+    const glm::uvec3 groups((texels + group - 1) / group);
     glDispatchCompute(groups.x, groups.y, groups.z);
+}
+
+void add_slabs(const gl::Program& slabs, const DimmingMedia& media, const LightRays& r) {
+    slabs.set("origin", r.origin);
+    slabs.set("size", r.size);
+    if (r.of_lamp()) {
+        slabs.set("lamp_position", r.lamp);
+        slabs.set("lamp_window", r.window);
+        slabs.set("lamp_span", glm::vec2(r.begin, r.end));
+    } else {
+        slabs.set("volume_to_world", r.volume_to_world);
+    }
+    for (std::uint32_t i = r.first_medium; i < r.first_medium + r.media_count; ++i) {
+        const IndexBox texels = dimmed_texels(r, media.all[i]);
+        if (texels.empty()) continue;
+        slabs.set("medium_index", i);
+        slabs.set("first_texel", texels.lower);
+        slabs.set("end_texel", texels.upper);
+        dispatch(slabs, texels.upper - texels.lower, slabs_group);
+        glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+    }
 }
 
 bool is_grid(const AttenuatingMedium& medium) {
@@ -80,6 +100,32 @@ gl::Texture light_volume_texture(glm::ivec3 size, bool chromatic, const char* la
     return texture;
 }
 
+IndexBox dimmed_texels(const LightRays& rays, const shared::LocalMedium& medium) {
+    const glm::vec3 center = glm::inverse(medium.world_to_shape)[3];
+    glm::vec3 lower(0), upper(rays.size);  // in texels from the first one's near side
+    if (rays.of_lamp()) {
+        const float radius = glm::length(glm::vec3(medium.extent_softness)),
+                    from = glm::distance(center, rays.lamp);
+        const float texels = static_cast<float>(rays.size.z - 1) / (rays.end - rays.begin);
+        lower.z = (from - radius - rays.begin) * texels + 0.5f;
+        upper.z = (from + radius - rays.begin) * texels + 0.5f;
+    } else {
+        const glm::vec3 at = glm::inverse(rays.volume_to_world) * glm::vec4(center, 1);
+        for (int axis = 0; axis < 3; ++axis) {
+            const auto side = glm::vec3(rays.volume_to_world[axis]);
+            const float length = glm::length(side), size = static_cast<float>(rays.size[axis]);
+            const float half = half_extent_along(medium, side / length) / length;
+            lower[axis] = (at[axis] - half) * size;
+            upper[axis] = (at[axis] + half) * size;
+        }
+    }
+    // A slab ends at its texel's centre and begins at that of the one before it. A texel more all round: rounding
+    // never loses one.
+    lower = glm::clamp(glm::floor(lower - 1.0f), glm::vec3(0), glm::vec3(rays.size));
+    upper = glm::clamp(glm::ceil(upper + 1.0f) + glm::vec3(0, 0, 1), glm::vec3(0), glm::vec3(rays.size));
+    return {.lower = glm::ivec3(lower), .upper = glm::ivec3(upper)};
+}
+
 void fill_light_volume(ShaderLibrary& shaders, bool count_work, const gl::Texture& volume,
                        const DimmingMedia& media, std::span<const LightRays> rays) {
     const bool chromatic = volume.desc().format == GL_RGBA16F;
@@ -91,20 +137,16 @@ void fill_light_volume(ShaderLibrary& shaders, bool count_work, const gl::Textur
                                                                {"GRIDS", media.has_grids},
                                                                {"CHROMATIC", chromatic},
                                                                {"COUNT_WORK", count_work}});
-        slabs.set("first_medium", r.first_medium);
-        slabs.set("media_count", r.media_count);
-        if (r.of_lamp()) {
-            slabs.set("lamp_position", r.lamp);
-            slabs.set("lamp_window", r.window);
-            slabs.set("lamp_span", glm::vec2(r.begin, r.end));
-        } else {
-            slabs.set("volume_to_world", r.volume_to_world);
-        }
-        dispatch(slabs, r.origin, r.size, slabs_group);
+        glClearTexSubImage(volume.id(), 0, r.origin.x, r.origin.y, r.origin.z, r.size.x, r.size.y, r.size.z,
+                           GL_RGBA, GL_FLOAT, nullptr);
+        add_slabs(slabs, media, r);
     }
-    glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
     const gl::Program& sum = shaders.get(sum_program, {{"CHROMATIC", chromatic}});
-    for (const LightRays& r : rays) dispatch(sum, r.origin, r.size, sum_group);
+    for (const LightRays& r : rays) {
+        sum.set("origin", r.origin);
+        sum.set("size", r.size);
+        dispatch(sum, r.size, sum_group);
+    }
 }
 
 void LightVolumes::prepare(const Inputs& inputs, const Settings& settings, FrameMedia& media) {
@@ -146,7 +188,7 @@ void LightVolumes::add_passes(PassList& passes, ShaderLibrary& shaders, const In
         passes.add(
             name, [&](PassBuilder& builder) { ref = builder.storage_write(ref); },
             [this, &volume, &shaders, &grids, has_grids, count_work = inputs.count_work](const PassContext&) {
-                volume.fill(shaders, count_work, {media_, has_grids, grids});
+                volume.fill(shaders, count_work, {uploaded_, media_, has_grids, grids});
             });
         return ref;
     };

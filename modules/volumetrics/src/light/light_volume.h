@@ -29,10 +29,14 @@ struct LightRays {
 
 /// What dims the light.
 struct DimmingMedia {
-    const gl::Buffer& buffer;
+    std::span<const shared::LocalMedium> all;
+    const gl::Buffer& buffer;  ///< that holds them
     bool has_grids;
     const GridAtlas& grids;
 };
+
+/// The texels of a light's part whose slabs the medium may reach, never too few.
+[[nodiscard]] IndexBox dimmed_texels(const LightRays& rays, const shared::LocalMedium& medium);
 
 /// Fills parts of a volume by shaders/volumetrics/light/light_volume_slabs.comp and light_volume_sum.comp.
 void fill_light_volume(ShaderLibrary& shaders, bool count_work, const gl::Texture& volume,
