@@ -128,15 +128,15 @@ bool VolumetricsAdapter::wants_motion(const FrameContext& frame) const {
     return frame.facts.has_medium() && volumetrics::reads_motion(settings);
 }
 
-void VolumetricsAdapter::add_before_lighting(FrameContext& frame, const GBuffer& gbuffer, bool transparents,
-                                             LightSources& lights) {
+void VolumetricsAdapter::add_before_lighting(FrameContext& frame, const GBuffer& gbuffer,
+                                             std::span<const Aabb> transparents, LightSources& lights) {
     if (!module_) module_ = std::make_unique<volumetrics::Volumetrics>(frame.shaders);
     inputs_ = view_inputs(frame);
     add_media(inputs_, frame, grids_);
     add_lights(inputs_, frame, lights);
     inputs_.depth = gbuffer.depth;
     inputs_.motion = gbuffer.motion;
-    inputs_.transparents = transparents;
+    for (const Aabb& box : transparents) inputs_.transparents.push_back({box.min, box.max});
     inputs_.acceptance = show_acceptance || std::ranges::count(frame.layers, "acceptance") > 0;
     inputs_.samples = std::ranges::count(frame.layers, "samples") > 0;
     module_->prepare(inputs_, settings);

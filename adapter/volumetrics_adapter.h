@@ -31,7 +31,7 @@ class VolumetricsAdapter : public FrameModule {
     bool show_acceptance = false;    ///< the display shows the layer acceptance, while there is a temporal filter
 
     [[nodiscard]] bool wants_motion(const FrameContext& frame) const override;
-    void add_before_lighting(FrameContext& frame, const GBuffer& gbuffer, bool transparents,
+    void add_before_lighting(FrameContext& frame, const GBuffer& gbuffer, std::span<const Aabb> transparents,
                              LightSources& lights) override;
     [[nodiscard]] TextureRef add_after_lighting(FrameContext& frame, TextureRef color) override;
     [[nodiscard]] Transparents transparents() const override;

@@ -23,9 +23,9 @@ class FrameModule {
     /// Whether GBuffer::motion is to be made, where something moves.
     [[nodiscard]] virtual bool wants_motion(const FrameContext&) const { return false; }
     /// The G-buffer and the lights are there, no surface is lit yet. `lights` may be changed for surfaces: textures
-    /// that they sample, what is bound, defines. `transparents`: something alpha-blended is in view.
-    virtual void add_before_lighting(FrameContext& frame, const GBuffer& gbuffer, bool transparents,
-                                     LightSources& lights) = 0;
+    /// that they sample, what is bound, defines. `transparents`: boxes round what alpha-blended is in view.
+    virtual void add_before_lighting(FrameContext& frame, const GBuffer& gbuffer,
+                                     std::span<const Aabb> transparents, LightSources& lights) = 0;
     /// `color` (RGBA16F) holds the opaque surfaces and the sky; returns its new version.
     [[nodiscard]] virtual TextureRef add_after_lighting(FrameContext& frame, TextureRef color) = 0;
 

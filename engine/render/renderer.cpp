@@ -162,8 +162,8 @@ void Renderer::Impl::add_passes(FrameContext& frame, LightSources& sources) {
     const bool motion = std::ranges::any_of(modules, [&](FrameModule* m) { return m->wants_motion(frame); });
     const GBuffer g = gbuffer.add(frame, motion ? previous_view_projection : std::nullopt);
     sources = add_lights(frame, g, sun);
-    const bool transparents = transparent.gather(frame);
-    for (FrameModule* module : modules) module->add_before_lighting(frame, g, transparents, sources);
+    transparent.gather(frame);
+    for (FrameModule* module : modules) module->add_before_lighting(frame, g, transparent.bounds(), sources);
 
     TextureRef radiance = passes.import("color", color);
     radiance = add_lighting(frame, g, sources, radiance);

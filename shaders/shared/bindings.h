@@ -14,6 +14,7 @@
 #define BINDING_PARTICLES 0           // transparent particles
 #define BINDING_SPRITES 0             // volumetrics: billboards, particles
 #define BINDING_MEDIA_TILES 0         // volumetrics: inject_media
+#define BINDING_TRANSPARENT_DEPTHS 0  // volumetrics: froxel_columns
 #define BINDING_SCREEN_MEDIA 0        // volumetrics: ray_media.glsl
 #define BINDING_UNFINISHED 0          // volumetrics: reference_lamps
 #define BINDING_CLUSTERS 1

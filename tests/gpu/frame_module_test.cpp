@@ -20,10 +20,10 @@ class Painter : public FrameModule {
     Painter(std::string name, float value) : name_(std::move(name)), value_(value) {}
 
     [[nodiscard]] bool wants_motion(const FrameContext&) const override { return motion; }
-    void add_before_lighting(FrameContext& frame, const GBuffer& gbuffer, bool transparents,
+    void add_before_lighting(FrameContext& frame, const GBuffer& gbuffer, std::span<const Aabb> transparents,
                              LightSources& lights) override {
         motion_made = static_cast<bool>(gbuffer.motion);
-        saw_transparents = transparents;
+        saw_transparents = !transparents.empty();
         asked = std::ranges::count(frame.layers, name_) > 0;
         if (!casts_shadow) return;
         lights.bind = [this, bind = lights.bind] {

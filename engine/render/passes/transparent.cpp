@@ -77,8 +77,9 @@ constexpr float faintest_opacity = 0.002f;
 
 }  // namespace
 
-bool TransparentPass::gather(const FrameContext& frame) {
+void TransparentPass::gather(const FrameContext& frame) {
     draws_.clear();
+    bounds_.clear();
     instances_.clear();
     particles_.clear();
     const Frustum frustum = Frustum::from(frame.view.view_projection);
@@ -91,6 +92,7 @@ bool TransparentPass::gather(const FrameContext& frame) {
             !frustum.intersects(instance.bounds))
             continue;
         items.push_back({view_depth(middle), false, static_cast<std::uint32_t>(i)});
+        bounds_.push_back(instance.bounds);
     }
     std::vector<Particle> particles;
     for (const ParticleEmitter& emitter : frame.scene.emitters) {
@@ -100,7 +102,9 @@ bool TransparentPass::gather(const FrameContext& frame) {
     }
     for (std::size_t i = 0; i < particles.size(); ++i) {
         const Particle& p = particles[i];
-        if (p.opacity < faintest_opacity || !frustum.intersects_sphere(p.position, 1.5f * p.radius)) continue;
+        const float reach = 1.5f * p.radius;
+        if (p.opacity < faintest_opacity || !frustum.intersects_sphere(p.position, reach)) continue;
+        bounds_.push_back({p.position - reach, p.position + reach});
         items.push_back({view_depth(p.position), true, static_cast<std::uint32_t>(i)});
     }
     std::ranges::stable_sort(items, std::greater(), &Item::view_depth);
@@ -116,7 +120,6 @@ bool TransparentPass::gather(const FrameContext& frame) {
         else
             instances_.push_back(frame.gpu.drawn(item.index));
     }
-    return !draws_.empty();
 }
 
 TextureRef TransparentPass::add(FrameContext& frame, const GBuffer& g, const LightSources& sources,

@@ -18,8 +18,9 @@ namespace tyndall {
 /// surfaces that cut each other, or a small one before the near part of a large one, may blend in the wrong order.
 class TransparentPass {
   public:
-    /// Finds what of the scene is in view at frame.time; true if anything is. To be called before `add`.
-    bool gather(const FrameContext& frame);
+    /// Finds what of the scene is in view at frame.time. To be called before `add`.
+    void gather(const FrameContext& frame);
+    [[nodiscard]] std::span<const Aabb> bounds() const { return bounds_; }  ///< round each thing in view
     /// Adds the pass "transparent", or skips it. Returns the new version of `color` (RGBA16F).
     [[nodiscard]] TextureRef add(FrameContext& frame, const GBuffer& gbuffer, const LightSources& sources,
                                  std::span<FrameModule* const> modules, TextureRef color);
@@ -35,6 +36,7 @@ class TransparentPass {
     void draw_instance(const FrameContext& frame, const gl::Program& shader, std::uint32_t index) const;
 
     std::vector<Draw> draws_;  ///< back to front
+    std::vector<Aabb> bounds_;
     std::vector<GpuScene::DrawnInstance> instances_;
     std::vector<shared::Particle> particles_;
     gl::Buffer drawn_, particle_buffer_;

@@ -46,6 +46,10 @@ void main() {
     if (any(greaterThanEqual(froxel.xy, size.xy))) return;
     float farthest = texelFetch(farthest_view_depth, froxel.xy, 0).r;
     count_work(WORK_TEXTURE_FETCHES, 1u);
+    if (farthest <= 0.0) {
+        flush_work();
+        return;
+    }
     int last_lit = froxel_slice(farthest, size.z);
     int last = froxel_slice(BEYOND * farthest, size.z);
     Ray ray = view_ray((vec2(froxel.xy) + 0.5) / vec2(size.xy));

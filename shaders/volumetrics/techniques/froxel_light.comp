@@ -158,7 +158,7 @@ void main() {
     float farthest = texelFetch(farthest_view_depth, froxel.xy, 0).r;
     count_work(WORK_TEXTURE_FETCHES, 1u);
     int last = min(froxel_slice(farthest, size.z), froxel.z + run - 1);
-    if (froxel.z > last) {
+    if (froxel.z > last || farthest <= 0.0) {
         flush_work();
         return;
     }

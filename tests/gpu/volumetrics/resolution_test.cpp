@@ -354,7 +354,7 @@ TEST_F(VolumetricsResolution, FogOfTransparentsIsThatOfFullResolution) {
         s.froxels.history = 0;
         PassList passes;
         Inputs inputs = host.inputs(passes);
-        inputs.transparents = true;
+        inputs.transparents = {{glm::vec3(-1000), glm::vec3(1000)}};
         host.volumetrics().prepare(inputs, s);
         const volumetrics::Outputs out = host.volumetrics().add_passes(passes, inputs, s);
         passes.export_texture(out.fog.radiance);

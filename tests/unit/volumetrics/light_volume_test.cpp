@@ -47,18 +47,18 @@ TEST_F(DimmedTexels, OfTheSunHoldEverySlabThatMeetsTheMedium) {
     for (int round = 0; round < 200; ++round) {
         const LocalMedium medium = random_medium();
         const glm::mat4 turn = glm::mat4_cast(glm::normalize(glm::quat(1, random().x, random().y, random().z)));
-        const LightRays rays{.size = {20, 16, 12},
-                             .volume_to_world = turn * glm::scale(glm::translate(glm::mat4(1), glm::vec3(-6, -7, -8)),
-                                                                  glm::vec3(12, 14, 16)),
-                             .media_count = 1};
+        const LightRays rays{
+            .size = {20, 16, 12},
+            .volume_to_world =
+                turn * glm::scale(glm::translate(glm::mat4(1), glm::vec3(-6, -7, -8)), glm::vec3(12, 14, 16)),
+            .media_count = 1};
         const IndexBox box = dimmed_texels(rays, pack_shape(medium));
         if (!box.empty()) texels += static_cast<std::size_t>(glm::compMul(box.upper - box.lower));
         for (int i = 0; i < 100; ++i) {
             const glm::vec4 at = glm::inverse(rays.volume_to_world) * glm::vec4(in_world(medium, random()), 1);
             const glm::vec3 p = glm::vec3(at) * glm::vec3(rays.size);
             const glm::ivec3 texel(glm::floor(glm::vec3(p.x, p.y, p.z + 0.5f)));
-            if (glm::any(glm::lessThan(texel, glm::ivec3(0))) ||
-                glm::any(glm::greaterThanEqual(texel, rays.size)))
+            if (glm::any(glm::lessThan(texel, glm::ivec3(0))) || glm::any(glm::greaterThanEqual(texel, rays.size)))
                 continue;
             ASSERT_TRUE(holds(box, texel)) << round << ' ' << texel.x << ' ' << texel.y << ' ' << texel.z;
         }
@@ -74,7 +74,8 @@ TEST_F(DimmedTexels, OfALampHoldEveryDistanceOfTheMedium) {
         const IndexBox box = dimmed_texels(rays, pack_shape(medium));
         for (int i = 0; i < 100; ++i) {
             const float distance = glm::distance(rays.lamp, in_world(medium, random()));
-            const int slab = static_cast<int>(std::floor((distance - rays.begin) / (rays.end - rays.begin) * 23)) + 1;
+            const int slab =
+                static_cast<int>(std::floor((distance - rays.begin) / (rays.end - rays.begin) * 23)) + 1;
             if (slab < 1 || slab > 23) continue;
             ASSERT_TRUE(holds(box, {0, 9, slab})) << round << ' ' << slab;
         }
@@ -84,7 +85,8 @@ TEST_F(DimmedTexels, OfALampHoldEveryDistanceOfTheMedium) {
 TEST_F(DimmedTexels, AreNoneFarFromTheLight) {
     LocalMedium medium = random_medium();
     medium.center = {0, 0, 100};
-    EXPECT_TRUE(dimmed_texels({.size = {8, 8, 8}, .media_count = 1, .begin = 1, .end = 9}, pack_shape(medium)).empty());
+    EXPECT_TRUE(
+        dimmed_texels({.size = {8, 8, 8}, .media_count = 1, .begin = 1, .end = 9}, pack_shape(medium)).empty());
     EXPECT_TRUE(dimmed_texels({.size = {8, 8, 8}, .media_count = 1}, pack_shape(medium)).empty());
 }
 

@@ -136,6 +136,39 @@ TEST(VolumetricsMedia, FroxelBoundsHoldEveryPointInView) {
     }
 }
 
+// Of the pixel that sees a point of a box, all four columns round it go as far as the point.
+TEST(VolumetricsMedia, DepthsOfTransparentsHoldEveryPointInView) {
+    std::mt19937 random(5);
+    std::uniform_real_distribution<float> unit(-1, 1);
+    const glm::ivec2 columns{16, 9};
+    int empty = 0, seen = 0;
+    for (int trial = 0; trial < 200; ++trial) {
+        Inputs inputs = view_inputs({unit(random), unit(random), unit(random)},
+                                    {10 * unit(random), 5 * unit(random), 10 * unit(random)});
+        const glm::vec3 center(30 * unit(random), 10 * unit(random), 30 * unit(random));
+        const glm::vec3 half = 0.1F + 2.0F * glm::abs(glm::vec3(unit(random), unit(random), unit(random)));
+        inputs.transparents = {{center - half, center + half}};
+        const std::vector<glm::vec2> depths = transparent_depths(inputs, columns);
+        empty += static_cast<int>(std::ranges::count(depths, 0.0F, [](glm::vec2 d) { return d.y; }));
+        for (int i = 0; i < 100; ++i) {
+            const glm::vec3 point = center + half * glm::vec3(unit(random), unit(random), unit(random));
+            const glm::vec4 view = inputs.view * glm::vec4(point, 1), clip = inputs.projection * view;
+            const glm::vec2 uv = 0.5F * glm::vec2(clip) / clip.w + 0.5F;
+            if (view.z > -inputs.znear || uv.x < 0 || uv.y < 0 || uv.x >= 1 || uv.y >= 1) continue;
+            ++seen;
+            const glm::ivec2 base(glm::floor(uv * glm::vec2(columns) - 0.5F));
+            for (const glm::ivec2 corner : {glm::ivec2(0), {1, 0}, {0, 1}, {1, 1}}) {
+                const glm::ivec2 c = glm::clamp(base + corner, glm::ivec2(0), columns - 1);
+                const glm::vec2 d = depths[static_cast<std::size_t>(c.y) * columns.x + c.x];
+                ASSERT_LE(d.x, -view.z);
+                ASSERT_GE(d.y, -view.z);
+            }
+        }
+    }
+    EXPECT_GT(seen, 1000);
+    EXPECT_GT(empty, 200 * columns.x * columns.y / 2) << "most columns are left out";
+}
+
 // Against points drawn from the shapes, near and far: each is in a tile that lists its medium.
 TEST(VolumetricsMedia, TilesOfTheScreenListEveryMediumSeenInThem) {
     std::mt19937 random(5);

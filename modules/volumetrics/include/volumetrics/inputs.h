@@ -58,6 +58,11 @@ struct Lamp {
     float intensity = 1;    ///< mean channel, cd, in any unit that all lamps share: which of them matter most
 };
 
+/// m, in the world.
+struct Box {
+    glm::vec3 min{0}, max{0};
+};
+
 /// What the host gives each frame. All textures are borrowed.
 struct Inputs {
     glm::mat4 view{1};        ///< world to view, right-handed, looks along -Z
@@ -91,9 +96,10 @@ struct Inputs {
     bool has_glass = false;
     bool has_shadow_maps = false;  ///< the host has shaders/interface/shadow_maps.glsl
 
-    bool transparents = false;  ///< Outputs::fog is wanted, whatever the technique
-    bool acceptance = false;    ///< Outputs::acceptance is wanted
-    bool samples = false;       ///< Outputs::samples is wanted
+    /// Round all that is drawn over the picture and fogged: there Outputs::fog is wanted, whatever the technique.
+    std::vector<Box> transparents;
+    bool acceptance = false;  ///< Outputs::acceptance is wanted
+    bool samples = false;     ///< Outputs::samples is wanted
 
     std::uint32_t frame_index = 0;
     double time = 0;          ///< s

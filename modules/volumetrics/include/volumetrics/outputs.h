@@ -6,9 +6,10 @@ namespace tyndall::volumetrics {
 
 /// Light and transmittance along all view rays, for what a host draws forward over the fogged picture with
 /// shaders/volumetrics/frame/apply.glsl: a pass that includes it samples them (Volumetrics::sample_fog, bind_fog).
-/// Empty without a medium, and where neither the technique nor Inputs::transparents asked for it.
+/// Empty without a medium, and where neither the technique nor Inputs::transparents asked for it. Of technique
+/// froxel it goes up to the farthest thing seen, of the others up to the farthest of Inputs::transparents.
 struct Fog {
-    TextureRef columns = {};        ///< R32F: farthest view depth [m] in each column of froxels
+    TextureRef columns = {};        ///< R32F: view depth [m] at which each column of froxels ends; 0: it is empty
     TextureRef radiance = {};       ///< RGBA16F volume
     TextureRef optical_depth = {};  ///< RGBA16F volume; empty where one value holds for all channels
     explicit operator bool() const { return static_cast<bool>(radiance); }

@@ -16,7 +16,7 @@ namespace tyndall::volumetrics {
 /// What the passes of all techniques share.
 struct Resources {
     gl::Sampler nearest, linear;
-    gl::Buffer uniforms, local_media, screen_media, media_tiles;
+    gl::Buffer uniforms, local_media, screen_media, media_tiles, transparent_depths;
     gl::Buffer
         host_uniforms;  ///< of passes at the host's size, where others have a lower one and grids may be in view
     GridAtlas grids;

@@ -54,7 +54,8 @@ struct Volumetrics::Impl {
             add_sky_light(frame, estimate);
             outputs = reconstruct(frame, estimate);
         }
-        if (inputs.transparents && !outputs.fog) outputs.fog = add_froxel_fog(frame, nullptr);
+        if (!inputs.transparents.empty() && !outputs.fog)
+            outputs.fog = add_froxel_fog(frame, transparent_columns(frame), nullptr);
         skip_missing(passes, sky_light_passes(),
                      inputs.has_sky_radiance ? "nothing asks for it" : "ambient light is the same everywhere");
         skip_others(passes, desc);

@@ -83,7 +83,7 @@ void add_sky_light_again(Frame& frame, Estimate& estimate, TextureRef mask) {
 void add_froxel_sky(Frame& frame, TextureRef columns, TextureRef& radiance) {
     if (!frame.inputs.has_sky_radiance) return;
     constexpr int run = 8;  // slices that one invocation lights
-    const FroxelMedia& media = froxel_media(frame);
+    const FroxelMedia& media = froxel_media(frame, columns);
     const glm::ivec3 size = frame.passes.desc(radiance).size;
     Permutation p = permutation(frame);
     p["SKY_ALONE"] = 1;

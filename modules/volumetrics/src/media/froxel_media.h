@@ -12,10 +12,12 @@ struct FroxelMedia {
     TextureRef scattering, extinction, emission;  ///< emission only where some local medium emits
 };
 
-/// This frame's: the first call adds the passes.
-[[nodiscard]] const FroxelMedia& froxel_media(Frame& frame);
+/// This frame's: the first call adds the passes, and its columns are all that is filled.
+[[nodiscard]] const FroxelMedia& froxel_media(Frame& frame, TextureRef columns);
 /// Likewise: the farthest view depth [m] seen through each column, behind which no froxel is filled. R32F, see
 /// shaders/volumetrics/media/froxel_columns.frag.
 [[nodiscard]] TextureRef froxel_columns(Frame& frame);
+/// That of the transparents in it which nothing hides; 0 where there are none, whose froxels nothing fills.
+[[nodiscard]] TextureRef transparent_columns(Frame& frame);
 
 }  // namespace tyndall::volumetrics

@@ -1,14 +1,15 @@
 #include "media/froxel_tiles.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "media/shape.h"
 
 namespace tyndall::volumetrics {
 
-ViewBounds view_bounds(const LocalMedium& medium, const Inputs& inputs) {
+ViewBounds view_bounds(const std::array<glm::vec3, 8>& corners, const Inputs& inputs) {
     ViewBounds bounds;
-    for (const glm::vec3 corner : corners(medium)) {
+    for (const glm::vec3 corner : corners) {
         const glm::vec4 view = inputs.view * glm::vec4(corner, 1);
         const float depth = -view.z;
         bounds.nearest = std::min(bounds.nearest, depth);
@@ -24,6 +25,32 @@ ViewBounds view_bounds(const LocalMedium& medium, const Inputs& inputs) {
         bounds.upper = glm::vec2(1);
     }
     return bounds;
+}
+
+ViewBounds view_bounds(const LocalMedium& medium, const Inputs& inputs) {
+    return view_bounds(corners(medium), inputs);
+}
+
+std::vector<glm::vec2> transparent_depths(const Inputs& inputs, glm::ivec2 columns) {
+    std::vector<glm::vec2> depths(static_cast<std::size_t>(columns.x) * columns.y,
+                                  {std::numeric_limits<float>::infinity(), 0});
+    for (const Box& box : inputs.transparents) {
+        std::array<glm::vec3, 8> corners;
+        for (std::size_t i = 0; i < 8; ++i)
+            corners[i] = glm::mix(box.min, box.max, glm::bvec3(i & 1, i & 2, i & 4));
+        const ViewBounds bounds = view_bounds(corners, inputs);
+        if (!bounds.in_view()) continue;
+        // Pixels look into the four columns round them. A hair farther: rounding never loses a fragment.
+        const glm::vec2 count = columns, depth{bounds.nearest * 0.999F, bounds.farthest * 1.001F};
+        const glm::ivec2 first = glm::floor(glm::clamp(bounds.lower * count - 1.0F, glm::vec2(0), count));
+        const glm::ivec2 end = glm::ceil(glm::clamp(bounds.upper * count + 1.0F, glm::vec2(0), count));
+        for (int y = first.y; y < end.y; ++y)
+            for (int x = first.x; x < end.x; ++x) {
+                glm::vec2& d = depths[static_cast<std::size_t>(y) * columns.x + x];
+                d = {std::min(d.x, depth.x), std::max(d.y, depth.y)};
+            }
+    }
+    return depths;
 }
 
 bool ViewBounds::in_view() const {

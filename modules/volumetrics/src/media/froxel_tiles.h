@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -9,7 +10,11 @@
 
 namespace tyndall::volumetrics {
 
+[[nodiscard]] ViewBounds view_bounds(const std::array<glm::vec3, 8>& corners, const Inputs& inputs);
 [[nodiscard]] ViewBounds view_bounds(const LocalMedium& medium, const Inputs& inputs);
+/// For each column of froxels, along x first: nearest and farthest view depth [m] of Inputs::transparents that may
+/// be seen in it or beside it; {infinity, 0}: of none.
+[[nodiscard]] std::vector<glm::vec2> transparent_depths(const Inputs& inputs, glm::ivec2 columns);
 
 /// The froxels that a medium may touch, never too few; empty where they do not reach it.
 /// Something in view may lie in the medium or behind it, seen from a light.

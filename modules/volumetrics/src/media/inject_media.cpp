@@ -15,7 +15,7 @@ const ProgramDesc program{.name = "volumetrics/inject_media",
                           .valid = {}};
 const ProgramRegistry::Registration registration(program);
 
-FroxelMedia add_inject_media(Frame& frame) {
+FroxelMedia add_inject_media(Frame& frame, TextureRef columns) {
     const Settings& settings = frame.settings;
     const gl::TextureDesc desc{.kind = gl::TextureKind::d3,
                                .format = GL_RGBA16F,
@@ -32,7 +32,7 @@ FroxelMedia add_inject_media(Frame& frame) {
     frame.add(
         {.name = "volumetrics/inject_media",
          .program = frame.program(program, {{"EMISSION", frame.media.local_emission}}),
-         .sources = {{froxel_columns(frame)}},
+         .sources = {{columns}},
          .images = {{&froxels.scattering}, {&froxels.extinction}, {&froxels.emission}},
          .local_media = true,
          .set =
@@ -48,13 +48,13 @@ FroxelMedia add_inject_media(Frame& frame) {
 
 }  // namespace
 
-const FroxelMedia& froxel_media(Frame& frame) {
+const FroxelMedia& froxel_media(Frame& frame, TextureRef columns) {
     std::optional<FroxelMedia>& froxels = frame.resources.this_frame.froxel_media;
     if (!froxels && frame.media.local.empty()) {
         froxels.emplace();
         frame.skip("volumetrics/inject_media", "no local medium in view");
     } else if (!froxels) {
-        froxels = add_inject_media(frame);
+        froxels = add_inject_media(frame, columns);
     }
     return *froxels;
 }

@@ -52,11 +52,12 @@ void add_lamp_cores(Frame& frame, const Fog& lamps, Estimate& estimate) {
             drawn.push_back(lamp.index);
     const bool local = !frame.media.local.empty() || frame.resources.light_volumes.any();
     const bool heights = local || height_media_axis(frame.media) > 0;
+    const FroxelMedia& media = froxel_media(frame, lamps.columns);
     const gl::Program& cores = frame.program(
         cores_program, {{"LAMPS", 2}, {"LOCAL_MEDIA", local}, {"HEIGHT_MEDIA", heights ? MAX_HEIGHT_MEDIA : 0}});
     frame.add({.name = "volumetrics/lamp_cores",
                .program = cores,
-               .sources = {{frame.depth}, {froxel_media(frame).scattering}, {froxel_media(frame).extinction}},
+               .sources = {{frame.depth}, {media.scattering}, {media.extinction}},
                .fog = lamps,
                .targets = {&estimate.scattering},
                .lit = true,
@@ -96,7 +97,7 @@ Estimate add(Frame& frame) {
     }
     FroxelHistory* history = frame.settings.froxels.history > 0 ? &kept.history : nullptr;
     if (history == nullptr) kept.history = {};
-    const Fog lamps = add_froxel_fog(frame, history, FroxelContent::many_lamps);
+    const Fog lamps = add_froxel_fog(frame, froxel_columns(frame), history, FroxelContent::many_lamps);
     frame.add({.name = "volumetrics/many_lamps",
                .program = frame.program(program),
                .sources = {{frame.depth}},

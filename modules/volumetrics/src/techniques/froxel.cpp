@@ -28,7 +28,7 @@ Estimate add_froxel(Frame& frame) {
     const bool keeps = frame.settings.froxels.history > 0 && (frame.inputs.has_sun || frame.inputs.has_lamps);
     if (!keeps) frame.kept_by_technique.reset();
     Estimate estimate = frame.create_estimate();
-    estimate.fog = add_froxel_fog(frame, keeps ? &frame.kept<FroxelHistory>() : nullptr);
+    estimate.fog = add_froxel_fog(frame, froxel_columns(frame), keeps ? &frame.kept<FroxelHistory>() : nullptr);
     frame.add({.name = "volumetrics/froxel_apply",
                .program = frame.program(program),
                .sources = {{frame.depth}, {noise_volume(frame), true}},
@@ -41,9 +41,8 @@ Estimate add_froxel(Frame& frame) {
     return estimate;
 }
 
-Fog add_froxel_fog(Frame& frame, FroxelHistory* history, FroxelContent content) {
-    const FroxelMedia& media = froxel_media(frame);
-    const TextureRef columns = froxel_columns(frame);
+Fog add_froxel_fog(Frame& frame, TextureRef columns, FroxelHistory* history, FroxelContent content) {
+    const FroxelMedia& media = froxel_media(frame, columns);
     if (history != nullptr) history->begin_frame(frame.inputs, frame.settings, frame.media);
     FroxelLight light = add_froxel_light(frame, media, columns, history, content);
     if (content == FroxelContent::all) add_froxel_sky(frame, columns, light.radiance);
