@@ -27,12 +27,15 @@ struct Part {
     }
 };
 /// A pass belongs to the first that has it.
-const std::vector<Part> volumetric_parts{{"Media injection", {"volumetrics/inject_media"}},
-                                         {"Ray march", {"volumetrics/march"}},
-                                         {"Froxels", {"volumetrics/froxel"}},
-                                         {"Filter", {"volumetrics/filter"}},
-                                         {"Composite", {"volumetrics/composite"}},
-                                         {"Other volumetrics", {volumetrics}}};
+const std::vector<Part> volumetric_parts{
+    {"Media injection", {"volumetrics/inject_media"}},
+    {"Ray march", {"volumetrics/march"}},
+    {"Epipolar", {"volumetrics/epipolar"}},
+    {"Froxels",
+     {"volumetrics/froxel", "volumetrics/transparent_columns", "volumetrics/many_lamps", "volumetrics/lamp_cores"}},
+    {"Filter", {"volumetrics/filter"}},
+    {"Composite", {"volumetrics/composite"}},
+    {"Other volumetrics", {volumetrics}}};
 const std::vector<Part> frame_parts{{"Volumetrics", {volumetrics}},
                                     {"Shadows", {"shadow_"}},
                                     {"Surfaces", {"gbuffer", "lighting", "transparent"}},

@@ -13,9 +13,9 @@
 namespace tyndall {
 namespace {
 
-const std::vector<std::string> lit_techniques{"ray_march",     "froxel",         "billboards",
-                                              "particles",     "shaft_geometry", "analytic_fog",
-                                              "radial_shafts", "epipolar",       "reference"};
+const std::vector<std::string> lit_techniques{"ray_march",      "froxel",       "billboards",    "particles",
+                                              "shaft_geometry", "analytic_fog", "radial_shafts", "epipolar",
+                                              "auto",           "reference"};
 
 class Exposure : public GlTest {
   protected:

@@ -164,6 +164,7 @@ TEST_F(Suns, TwentyThousandLampsAddUp) {
 // Lamps of all places and strengths, more than the loops have rounds for, against three thirds of them, which fit:
 // a march loses nothing of the mean over the picture, and each pixel has some noise.
 TEST_F(Suns, ManyLampsAreTheSumOfFewer) {
+    volumetrics_.settings.technique = "ray_march";
     builder_.scene.media.push_back({.sigma_s = glm::vec3(0.02f)});
     volumetrics_.settings.temporal.mode = volumetrics::Temporal::off;
     volumetrics_.settings.filter.kernel = volumetrics::Filter::none;

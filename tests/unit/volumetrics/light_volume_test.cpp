@@ -4,6 +4,7 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtx/component_wise.hpp>
+#include <limits>
 #include <random>
 
 #include "media/shape.h"
@@ -78,6 +79,20 @@ TEST_F(DimmedTexels, OfALampHoldEveryDistanceOfTheMedium) {
                 static_cast<int>(std::floor((distance - rays.begin) / (rays.end - rays.begin) * 23)) + 1;
             if (slab < 1 || slab > 23) continue;
             ASSERT_TRUE(holds(box, {0, 9, slab})) << round << ' ' << slab;
+        }
+    }
+}
+
+TEST_F(DimmedTexels, AreAllWhereNumbersHaveNoBounds) {
+    for (const float odd :
+         {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(), 1e38f}) {
+        LocalMedium medium = random_medium();
+        medium.half_extent = glm::vec3(odd);
+        for (const LightRays& rays : {LightRays{.size = {8, 6, 4}, .media_count = 1},
+                                      LightRays{.size = {8, 6, 4}, .media_count = 1, .begin = 1, .end = 9}}) {
+            const IndexBox box = dimmed_texels(rays, pack_shape(medium));
+            EXPECT_EQ(box.lower, glm::ivec3(0)) << odd;
+            EXPECT_EQ(box.upper, rays.size) << odd;
         }
     }
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <functional>
 
@@ -121,9 +122,14 @@ IndexBox dimmed_texels(const LightRays& rays, const shared::LocalMedium& medium)
     }
     // A slab ends at its texel's centre and begins at that of the one before it. A texel more all round: rounding
     // never loses one.
-    lower = glm::clamp(glm::floor(lower - 1.0f), glm::vec3(0), glm::vec3(rays.size));
-    upper = glm::clamp(glm::ceil(upper + 1.0f) + glm::vec3(0, 0, 1), glm::vec3(0), glm::vec3(rays.size));
-    return {.lower = glm::ivec3(lower), .upper = glm::ivec3(upper)};
+    // Where numbers are beyond all bounds, all texels: fmin and fmax take the one that is a number.
+    IndexBox texels;
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto size = static_cast<float>(rays.size[axis]), slab = axis == 2 ? 1.0f : 0.0f;
+        texels.lower[axis] = static_cast<int>(std::fmin(std::fmax(std::floor(lower[axis] - 1), 0.0f), size));
+        texels.upper[axis] = static_cast<int>(std::fmax(std::fmin(std::ceil(upper[axis] + 1) + slab, size), 0.0f));
+    }
+    return texels;
 }
 
 void fill_light_volume(ShaderLibrary& shaders, bool count_work, const gl::Texture& volume,
