@@ -56,6 +56,9 @@ struct Volumetrics::Impl {
         }
         if (!inputs.transparents.empty() && !outputs.fog)
             outputs.fog = add_froxel_fog(frame, transparent_columns(frame), nullptr);
+        skip_missing(
+            passes, {"volumetrics/transparent_columns"},
+            inputs.transparents.empty() ? "nothing transparent in view" : "froxels of all columns are there");
         skip_missing(passes, sky_light_passes(),
                      inputs.has_sky_radiance ? "nothing asks for it" : "ambient light is the same everywhere");
         skip_others(passes, desc);
