@@ -32,7 +32,9 @@ void Resources::upload(const Settings& settings, FrameMedia& media) {
 }
 
 void Resources::release(const FrameMedia& media) {
-    for (gl::Buffer* buffer : {&uniforms, &host_uniforms, &local_media, &screen_media, &media_tiles}) *buffer = {};
+    for (gl::Buffer* buffer :
+         {&uniforms, &host_uniforms, &local_media, &screen_media, &media_tiles, &transparent_depths})
+        *buffer = {};
     if (media.grids.empty()) {
         grids.release();
         light_volumes.release();
@@ -43,7 +45,7 @@ void Resources::release(const FrameMedia& media) {
 
 std::size_t Resources::bytes() const {
     return uniforms.size() + host_uniforms.size() + local_media.size() + screen_media.size() + media_tiles.size() +
-           grids.bytes() + light_volumes.bytes() + noise.bytes() + temporal.bytes();
+           transparent_depths.size() + grids.bytes() + light_volumes.bytes() + noise.bytes() + temporal.bytes();
 }
 
 }  // namespace tyndall::volumetrics

@@ -56,6 +56,7 @@ struct Volumetrics::Impl {
         }
         if (!inputs.transparents.empty() && !outputs.fog)
             outputs.fog = add_froxel_fog(frame, transparent_columns(frame), nullptr);
+        if (inputs.transparents.empty()) resources.transparent_depths = {};
         skip_missing(
             passes, {"volumetrics/transparent_columns"},
             inputs.transparents.empty() ? "nothing transparent in view" : "froxels of all columns are there");

@@ -16,9 +16,9 @@ namespace tyndall::volumetrics {
 /// be seen in it or beside it; {infinity, 0}: of none.
 [[nodiscard]] std::vector<glm::vec2> transparent_depths(const Inputs& inputs, glm::ivec2 columns);
 
-/// The froxels that a medium may touch, never too few; empty where they do not reach it.
 /// Something in view may lie in the medium or behind it, seen from a light.
 [[nodiscard]] bool may_matter(const LocalMedium& medium, const Inputs& inputs);
+/// The froxels that a medium may touch, never too few; empty where they do not reach it.
 [[nodiscard]] IndexBox froxel_bounds(const ViewBounds& bounds, const FroxelGrid& grid);
 
 /// For each tile of SCREEN_MEDIA_X × SCREEN_MEDIA_Y of the screen, from the lower left on and along x first, a bit

@@ -20,7 +20,7 @@ struct ViewBounds {
     [[nodiscard]] bool in_view() const;
 };
 
-/// A range of froxels: lower corner included, upper not.
+/// A range of froxels, or of texels: lower corner included, upper not.
 struct IndexBox {
     glm::ivec3 lower{0}, upper{0};
     [[nodiscard]] bool empty() const { return lower.x >= upper.x || lower.y >= upper.y || lower.z >= upper.z; }
