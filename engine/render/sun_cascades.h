@@ -31,8 +31,10 @@ struct SliceSphere {
 };
 [[nodiscard]] SliceSphere slice_sphere(float yfov, float aspect, float begin, float end);
 
-/// The map of one cascade: the slice's sphere, its centre moved to whole texels of a grid that is fixed in the
-/// world, and a rim for the filter. Casters nearer to the sun than the map must be drawn with depth clamp.
+/// The map of one cascade: the slice's sphere, its centre moved to the nearest point of a grid that is fixed in the
+/// world, a sixteenth of the map wide, with room for that and for the filter. So texels stay where they are, and
+/// the map the same, and need not be drawn again, until the camera has moved the sphere so far. Casters nearer to
+/// the sun than the map must be drawn with depth clamp. Needs map_size >= 32.
 [[nodiscard]] SunMap fit_cascade(const View& view, float begin, float end, glm::vec3 sun_direction, int map_size);
 
 /// The map of everything: `bounds` seen from the sun. Empty bounds give a map of the unit box at the origin.

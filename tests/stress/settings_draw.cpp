@@ -46,6 +46,7 @@ void draw_settings(const SettingsTable& table, void* object, SettingEffect effec
 
 void limit_resources(StressOptions& options) {
     volumetrics::Settings& v = options.volumetrics;
+    v.froxels.pixels = 0;  // the columns are drawn themselves
     halve_until(v.froxels.x, v.froxels.y, v.froxels.z, 100'000);
     for (int* side : {&v.froxels.x, &v.froxels.y, &v.froxels.z}) *side |= 1;  // see odd() in frame.cpp
     const auto at_most = [](int& value, int most) { value = std::min(value, most); };

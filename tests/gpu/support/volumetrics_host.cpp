@@ -256,6 +256,7 @@ Settings plain_settings(int steps) {
     settings.noise.kind = volumetrics::Noise::none;
     settings.filter.kernel = volumetrics::Filter::none;
     settings.temporal.mode = volumetrics::Temporal::off;
+    settings.froxels.pixels = 0;
     return settings;
 }
 

@@ -43,6 +43,19 @@ void expect_rising_round_trip(const FroxelGrid& grid) {
     EXPECT_NEAR(grid.view_depth(1), grid.farthest, 2e-6F * grid.farthest);
 }
 
+TEST(FroxelGrid, SmallPicturesHaveFewerColumns) {
+    Settings settings;
+    settings.froxels.pixels = 6;
+    const auto columns = [&](int width, int height) { return froxel_size(settings, {width, height}); };
+    EXPECT_EQ(columns(1920, 1080), glm::ivec3(80, 45, 64));
+    EXPECT_EQ(columns(240, 135), glm::ivec3(40, 24, 64)) << "of 6 px 40 and 22.5";
+    EXPECT_EQ(columns(241, 120), glm::ivec3(48, 20, 64)) << "none too few";
+    EXPECT_EQ(columns(1, 1), glm::ivec3(8, 8, 64)) << "the least that can be set";
+    EXPECT_EQ(columns(4096, 16), glm::ivec3(80, 8, 64));
+    settings.froxels.pixels = 0;
+    EXPECT_EQ(columns(1, 1), glm::ivec3(80, 45, 64));
+}
+
 TEST(FroxelGrid, SlicesRiseAndComeBackWhateverIsSet) {
     std::mt19937 random(11);
     std::uniform_real_distribution<float> unit(0, 1);

@@ -217,6 +217,13 @@ SettingsTable& growing_settings_table() {
             .integer(in(&S::froxels, &FroxelSettings::z),
                      {"froxels_z", "Froxel slices", "Slices of each column in view depth."}, 8, 256,
                      Effect::resource)
+            .integer(
+                in(&S::froxels, &FroxelSettings::pixels),
+                {"froxel_pixels", "Pixels a column",
+                 "Least width and height of a column of froxels in the picture: a small one has fewer columns, "
+                 "in steps of 8 across and 4 up. 0: as many as are set.",
+                 "px"},
+                0, 64, Effect::resource)
             .real(in(&S::froxels, &FroxelSettings::far),
                   {"froxel_far", "Froxel far distance",
                    "View depth where the froxels end; behind it local media have no noise, and in the technique "
@@ -422,6 +429,15 @@ SettingsTable& growing_settings_table() {
 
 const SettingsTable& settings_table() {
     return growing_settings_table();
+}
+
+glm::ivec3 froxel_size(const Settings& settings, glm::ivec2 picture) {
+    const FroxelSettings& froxels = settings.froxels;
+    const glm::ivec3 all{froxels.x, froxels.y, froxels.z};
+    if (froxels.pixels == 0) return all;
+    const glm::ivec2 step{8, 4};
+    const glm::ivec2 columns = (picture + froxels.pixels - 1) / froxels.pixels;
+    return {glm::min(glm::ivec2(all), glm::max((columns + step - 1) / step * step, glm::ivec2(8))), all.z};
 }
 
 const std::vector<std::string>& spatial_kernel_names() {

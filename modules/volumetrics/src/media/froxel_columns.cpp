@@ -16,7 +16,7 @@ const ProgramRegistry::Registration registration(program);
 
 /// `limits`: of transparents, or null.
 TextureRef add_columns(Frame& frame, const char* name, const gl::Buffer* limits) {
-    const glm::ivec2 count{frame.settings.froxels.x, frame.settings.froxels.y};
+    const glm::ivec2 count = froxel_size(frame.settings, frame.inputs.size);
     TextureRef columns = frame.passes.create(name, {.format = GL_R32F, .size = {count, 1}});
     frame.add({.name = name,
                .program = frame.program(program, {{"TRANSPARENTS", limits != nullptr}}),
@@ -39,7 +39,7 @@ TextureRef froxel_columns(Frame& frame) {
 
 TextureRef transparent_columns(Frame& frame) {
     const std::vector<glm::vec2> depths =
-        transparent_depths(frame.inputs, {frame.settings.froxels.x, frame.settings.froxels.y});
+        transparent_depths(frame.inputs, froxel_size(frame.settings, frame.inputs.size));
     gl::Buffer& limits = frame.resources.transparent_depths;
     limits.assign(std::span<const glm::vec2>(depths), "volumetrics transparents' depths");
     return add_columns(frame, "volumetrics/transparent_columns", &limits);

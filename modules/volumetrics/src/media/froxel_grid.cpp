@@ -46,7 +46,7 @@ float FroxelGrid::view_depth(float w) const {
 }
 
 FroxelGrid froxel_grid(const Inputs& inputs, const Settings& settings) {
-    FroxelGrid grid{.size = {settings.froxels.x, settings.froxels.y, settings.froxels.z},
+    FroxelGrid grid{.size = froxel_size(settings, inputs.size),
                     .distribution = glsl::FROXEL_LINEAR,
                     .nearest = inputs.znear,
                     .farthest = settings.froxels.far};

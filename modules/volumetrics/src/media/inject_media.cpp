@@ -16,10 +16,8 @@ const ProgramDesc program{.name = "volumetrics/inject_media",
 const ProgramRegistry::Registration registration(program);
 
 FroxelMedia add_inject_media(Frame& frame, TextureRef columns) {
-    const Settings& settings = frame.settings;
-    const gl::TextureDesc desc{.kind = gl::TextureKind::d3,
-                               .format = GL_RGBA16F,
-                               .size = {settings.froxels.x, settings.froxels.y, settings.froxels.z}};
+    const gl::TextureDesc desc{
+        .kind = gl::TextureKind::d3, .format = GL_RGBA16F, .size = froxel_size(frame.settings, frame.inputs.size)};
     FroxelMedia froxels;
     froxels.scattering = frame.passes.create("volumetrics/froxel_scattering", desc);
     froxels.extinction = frame.passes.create("volumetrics/froxel_extinction", desc);

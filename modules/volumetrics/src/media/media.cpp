@@ -211,10 +211,10 @@ void set_few_lamps(const Inputs& inputs, const Settings& settings, FrameMedia& m
         media.data.few_lamps[i / 4][static_cast<int>(i % 4)] =
             i < media.few_lamps.size() ? media.few_lamps[i].index : ~0U;
     // Cores of three columns at the lamp's depth, or of one and a half slices.
-    const glm::vec2 froxel{2 / (inputs.projection[0][0] * static_cast<float>(settings.froxels.x)),
-                           2 / (inputs.projection[1][1] * static_cast<float>(settings.froxels.y))};
+    const glm::vec3 froxels = froxel_size(settings, inputs.size);
+    const glm::vec2 froxel{2 / (inputs.projection[0][0] * froxels.x), 2 / (inputs.projection[1][1] * froxels.y)};
     media.data.lamp_core = 3.0F * std::max(froxel.x, froxel.y);
-    media.data.lamp_core_slices = 0.75F / static_cast<float>(settings.froxels.z);
+    media.data.lamp_core_slices = 0.75F / froxels.z;
     media.data.few_lamp_count = static_cast<std::uint32_t>(media.few_lamps.size());
 }
 

@@ -27,7 +27,7 @@ constexpr glm::dvec3 sequence_step{0.8191725133961645, 0.6710436067037893, 0.549
 }  // namespace
 
 void FroxelHistory::begin_frame(const Inputs& inputs, const Settings& settings, const FrameMedia& media) {
-    const glm::ivec3 size{settings.froxels.x, settings.froxels.y, settings.froxels.z};
+    const glm::ivec3 size = froxel_size(settings, inputs.size);
     const gl::TextureDesc desc{.kind = gl::TextureKind::d3, .format = GL_RGBA16, .size = size, .levels = 1};
     visibility_.begin_frame(desc, "volumetrics froxel visibility");
     certainty_.begin_frame(desc, "volumetrics froxel certainty");

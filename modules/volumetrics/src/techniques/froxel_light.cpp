@@ -37,8 +37,7 @@ int run_of_slices(const Frame& frame) {
 
 FroxelLight add_froxel_light(Frame& frame, const FroxelMedia& media, TextureRef columns,
                              const FroxelHistory* history, FroxelContent content) {
-    const Settings& settings = frame.settings;
-    const glm::ivec3 size{settings.froxels.x, settings.froxels.y, settings.froxels.z};
+    const glm::ivec3 size = froxel_size(frame.settings, frame.inputs.size);
     const auto create = [&](const char* name, bool wanted) {
         const gl::TextureDesc desc{.kind = gl::TextureKind::d3, .format = GL_RGBA16F, .size = size};
         return wanted ? frame.passes.create(name, desc) : TextureRef{};
