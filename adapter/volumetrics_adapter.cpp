@@ -82,12 +82,13 @@ void add_lights(volumetrics::Inputs& inputs, const FrameContext& frame, const Li
                                 .axis = lamp.axis,
                                 .cos_outer = lamp.cos_outer,
                                 .shadow = frame.settings.shadows && light.shadow,
+                                .through_glass = lamp.through_glass,
                                 .intensity = (light.intensity.r + light.intensity.g + light.intensity.b) / 3});
     }
     inputs.light_textures = sources.textures;
     inputs.light_buffers = sources.buffers;
     inputs.bind_lighting = sources.bind;
-    inputs.has_glass = facts.has_glass();
+    inputs.sun_through_glass = facts.sun_through_glass;
     inputs.has_shadow_maps = true;
 }
 

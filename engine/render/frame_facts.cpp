@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "shaders/shared/lights.h"
+
 namespace tyndall {
 namespace {
 
@@ -27,8 +29,9 @@ void add_media(FrameFacts& facts, const Scene& scene, const Frustum& frustum) {
 
 }  // namespace
 
-bool FrameFacts::has_glass() const {
-    return sun_through_glass || std::ranges::any_of(lamps, &Lamp::through_glass);
+int FrameFacts::glass() const {
+    return (sun_through_glass ? GLASS_SUN : 0) |
+           (std::ranges::any_of(lamps, &Lamp::through_glass) ? GLASS_LAMPS : 0);
 }
 
 FrameFacts compute_facts(const Scene& scene, const View& view) {

@@ -16,7 +16,7 @@ struct FrameFacts {
     std::vector<Lamp> lamps;       ///< all that shine, further suns first
     int local_lights_in_view = 0;  ///< of them
     [[nodiscard]] bool has_medium() const { return has_global_medium || has_local_media; }
-    [[nodiscard]] bool has_glass() const;  ///< before the sun or a lamp in view
+    [[nodiscard]] int glass() const;  ///< GLASS_SUN, GLASS_LAMPS: before what light in view
 };
 
 /// Lights that do not shine and media that neither scatter, absorb nor shine do not count.

@@ -44,16 +44,14 @@ vec3 sun_glass(vec3 world, float view_depth) {
     return glass_texels(sun_glass_maps, map, p.xy * size, ivec2(0), ivec2(size) - 1, clamp(p.z, 0.0, 1.0));
 }
 
-// Of the finest map that holds the ray and knows of glass, as sun_shadow_occluder.
-vec3 sun_ray_glass(vec3 world) {
+// In the finest map that holds the ray: all of them hold all glass before it.
+bool sun_ray_glass(vec3 world) {
     float size = frame.sun_static_texel.w;
-    for (int map = 0; size > 0.0 && map <= SUN_CASCADES; ++map) {
-        vec2 p = (sun_map_matrix(map) * vec4(world, 1.0)).xy;
-        if (!in_map(vec3(p, 0.0))) continue;
-        vec3 rest = glass_texels(sun_glass_maps, map, p * size, ivec2(0), ivec2(size) - 1, -1.0);
-        if (any(lessThan(rest, vec3(1.0)))) return rest;
-    }
-    return vec3(1.0);
+    vec3 p = vec3(-1.0);
+    int map = -1;
+    while (map < SUN_CASCADES && !in_map(p)) p = (sun_map_matrix(++map) * vec4(world, 1.0)).xyz;
+    vec4 glass = textureGather(sun_glass_maps, vec3((floor(p.xy * size - 0.5) + 1.0) / size, float(map)), 3);
+    return size > 0.0 && in_map(p) && any(greaterThan(glass, vec4(0.0)));
 }
 
 // A lamp's a is 1 - w / far at the distance w along the tile's axis; a further sun's is its map's depth.

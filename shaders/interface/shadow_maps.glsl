@@ -12,10 +12,10 @@
 float sun_occluder(vec3 world) { return sun_shadow_occluder(world); }
 float light_occluder(uint index, GpuLight light, vec3 world) { return light_shadow_occluder(light, world); }
 
-// Where Inputs::has_glass: what glass leaves of the sun's ray through a point, of each channel, once it has passed all glass
-// before its first surface; wherever on the ray the point lies. 1 where there is none.
+// Where Inputs::has_glass: whether the sun's ray through a point passes glass before its first surface, wherever on the ray
+// the point lies. Where it says so of rays that pass none, time is lost and nothing else.
 #if GLASS
-vec3 sun_ray_filter(vec3 world) { return sun_ray_glass(world); }
+bool sun_ray_meets_glass(vec3 world) { return sun_ray_glass(world); }
 #endif
 
 #endif

@@ -9,6 +9,10 @@
 // m. Farther than half of this, a lamp is a sun: homogeneous media, which have no end, do not dim it.
 #define SUN_LAMP_DISTANCE 1.0e10f
 
+// Bits of the define GLASS: light of the sun, and of some lamp (of further suns too), comes through glass.
+#define GLASS_SUN 1
+#define GLASS_LAMPS 2
+
 SHARED_BEGIN
 
 struct GpuLight {

@@ -2,6 +2,7 @@
 
 #include "engine/gl/state.h"
 #include "engine/gl/vertex_array.h"
+#include "shaders/shared/lights.h"
 
 namespace tyndall {
 namespace {
@@ -16,7 +17,7 @@ const ProgramDesc program{
      {"SHADOWS", {0, 1}},
      {"MEDIUM_TRANSMITTANCE", {0, 1}},
      {"LIGHT_VOLUMES", {0, 1, 2}},
-     {"GLASS", {0, 1}},
+     {"GLASS", {0, GLASS_SUN, GLASS_LAMPS, GLASS_SUN | GLASS_LAMPS}},
      {"COUNT_WORK", {0, 1}}},
     [](const Permutation& p) {
         const bool lights = p.at("HAS_SUN") != 0 || p.at("HAS_LAMPS") != 0;
@@ -24,6 +25,8 @@ const ProgramDesc program{
         if (p.at("LIGHT_VOLUMES") == 2 && p.at("HAS_SUN") == 0) return false;
         if (p.at("SKY_VISIBILITY") > p.at("HAS_AMBIENT")) return false;
         if (p.at("GLASS") != 0 && p.at("SHADOWS") == 0) return false;
+        if ((p.at("GLASS") & GLASS_SUN) != 0 && p.at("HAS_SUN") == 0) return false;
+        if ((p.at("GLASS") & GLASS_LAMPS) != 0 && p.at("HAS_LAMPS") == 0) return false;
         return lights || (p.at("SHADOWS") == 0 && p.at("MEDIUM_TRANSMITTANCE") == 0);
     }};
 const ProgramRegistry::Registration registration(program);
@@ -38,7 +41,7 @@ Permutation permutation(const FrameContext& frame, const LightSources& sources) 
                               {"SHADOWS", frame.settings.shadows && lights},
                               {"MEDIUM_TRANSMITTANCE", 0},
                               {"LIGHT_VOLUMES", 0},
-                              {"GLASS", frame.facts.has_glass()},
+                              {"GLASS", frame.facts.glass()},
                               {"COUNT_WORK", frame.count_work}});
     return defines;
 }

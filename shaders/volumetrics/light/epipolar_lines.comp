@@ -12,42 +12,44 @@ layout(local_size_x = THREADS) in;
 layout(rg32f, binding = 0) writeonly uniform image2D nodes;
 layout(binding = 0) uniform sampler2D table;
 layout(binding = 1) uniform sampler2D cells_seen;  // of the sun's lines
-uniform int light;    // 0 the sun, 1 + i lamp i
-uniform bool sampled;  // the sun's lines are
-
+uniform int light;    // 0 the sun (SUN 1), 1 + i lamp i
+uniform bool sampled;  // the lines have samples
 
 shared vec2 node[MOST_CELLS];
 #if GLASS
 shared uint glass;
-
-bool is_coloured(EpipolarLines lines, vec3 across, float place) {
-    if (light != 0) return false;
-    vec3 world = volumetrics.eye.xyz + across * (EPIPOLAR_RADIUS * (exp(place / lines.cells_per_unit) - 1.0));
-    count_work(WORK_TEXTURE_FETCHES, 1u);
-    return any(lessThan(sun_ray_filter(world), vec3(1.0)));
-}
 #endif
 
-float sun_slope(EpipolarLines lines, vec3 across, float place) {
-    uint lamp = uint(max(light - 1, 0));
+#if SUN
+float slope_of(EpipolarLines lines, vec3 across, float place) {
     float radius = EPIPOLAR_RADIUS * (exp(place / lines.cells_per_unit) - 1.0);
     vec3 world = volumetrics.eye.xyz + across * radius;
-    float height = light == 0 ? sun_occluder(world) : light_occluder(lamp, light_at(lamp), world);
+#if GLASS
+    count_work(WORK_TEXTURE_FETCHES, 1u);
+    if (sun_ray_meets_glass(world)) glass = 1u;
+#endif
+    float height = sun_occluder(world);
     return height > -0.5 * NO_OCCLUDER ? height / radius : -EPIPOLAR_LARGEST;
 }
-
-float lamp_slope(EpipolarLines lines, vec3 across, float place) {
+#else
+// Of a lamp, and of a further sun.
+float slope_of(EpipolarLines lines, vec3 across, float place) {
+    GpuLight lamp = light_at(uint(light - 1));
+    float radius = EPIPOLAR_RADIUS * (exp(place / lines.cells_per_unit) - 1.0);
     float angle = place / lines.cells_per_unit;
     float cosine = cos(angle);
     float sine = sin(angle);
-    uint lamp = uint(light - 1);
-    GpuLight lamp_light = light_at(lamp);
-    vec3 world = lamp_light.position_range.xyz + sine * across - cosine * lines.axis;
-    float reach = 1.0 - light_occluder(lamp, lamp_light, world);
-    float range = lamp_light.position_range.w > 0.0 ? lamp_light.position_range.w : 0.5 * NO_OCCLUDER;
+    bool parallel = lines.distance == 0.0;
+    vec3 world = parallel ? volumetrics.eye.xyz + across * radius
+                          : lamp.position_range.xyz + sine * across - cosine * lines.axis;
+    float height = light_occluder(uint(light - 1), lamp, world);
+    if (parallel) return height > -0.5 * NO_OCCLUDER ? height / radius : -EPIPOLAR_LARGEST;
+    float reach = 1.0 - height;
+    float range = lamp.position_range.w > 0.0 ? lamp.position_range.w : 0.5 * NO_OCCLUDER;
     if (reach >= range) return -EPIPOLAR_LARGEST;  // wherever a view ray crosses it
     return (lines.distance - reach * cosine) / max(reach * sine, 1.0e-9);
 }
+#endif
 
 // Makes a tree of `count` nodes of a level of `level` nodes, which lie `stride` apart in `node` from `first` on; leaves its
 // root at `first`. What begins behind `made` of all cells, a share of them, is not stored.
@@ -76,31 +78,24 @@ void main() {
     vec3 across = cos(angle) * lines.first + sin(angle) * cross(lines.axis, lines.first);
     int root = lines.nodes + line * 2 * lines.cells;
 
-    bool counted = light == 0 && sampled;
-    int made = counted ? int(texelFetch(cells_seen, ivec2(line, 0), 0).x) : lines.cells;
+    int made = sampled ? int(texelFetch(cells_seen, ivec2(line, 0), 0).x) : lines.cells;
+    float share_made = float(made) / float(lines.cells);
 #if GLASS
     if (thread == 0) glass = 0u;
     barrier();
 #endif
-    float share_made = float(made) / float(lines.cells);
-
+    // Neighbouring threads take neighbouring cells, which ask the same maps.
+    for (int cell = thread; cell < lines.cells; cell += THREADS) {
+        node[cell] = vec2(EPIPOLAR_LARGEST, -EPIPOLAR_LARGEST);
+        if (cell >= made) continue;
+        count_work(WORK_SHADOW_LOOKUPS, 1u);
+        node[cell] = vec2(clamp(slope_of(lines, across, float(cell) + 0.5), -EPIPOLAR_LARGEST, EPIPOLAR_LARGEST));
+        imageStore(nodes, epipolar_texel(root + lines.cells + cell), vec4(node[cell], 0.0, 0.0));
+    }
+    barrier();
     int part = max(lines.cells / THREADS, 1);  // cells of a thread
     int parts = lines.cells / part;
-    if (thread < parts) {
-        int begin = thread * part;
-        for (int cell = begin; cell < begin + part; ++cell) node[cell] = vec2(EPIPOLAR_LARGEST, -EPIPOLAR_LARGEST);
-        for (int cell = begin; cell < min(begin + part, made); ++cell) {
-            float place = float(cell) + 0.5;
-            float slope = lines.distance == 0.0 ? sun_slope(lines, across, place) : lamp_slope(lines, across, place);
-            count_work(WORK_SHADOW_LOOKUPS, 1u);
-#if GLASS
-            if (is_coloured(lines, across, place)) glass = 1u;
-#endif
-            node[cell] = vec2(clamp(slope, -EPIPOLAR_LARGEST, EPIPOLAR_LARGEST));
-            imageStore(nodes, epipolar_texel(root + lines.cells + cell), vec4(node[cell], 0.0, 0.0));
-        }
-        if (begin < made) merge(root, begin, part, 1, lines.cells, share_made);
-    }
+    if (thread < parts && thread * part < made) merge(root, thread * part, part, 1, lines.cells, share_made);
     barrier();
     float coloured = 0.0;
 #if GLASS

@@ -3,6 +3,7 @@
 #define VOLUMETRICS_EPIPOLAR_SHARE_GLSL
 
 #include "shaders/lib/lamp_segment.glsl"
+#include "shaders/shared/lights.h"
 #include "shaders/volumetrics/frame/ray.glsl"
 #include "shaders/volumetrics/light/epipolar.glsl"
 #include "shaders/volumetrics/media/extinction.glsl"
@@ -37,7 +38,7 @@ EpipolarRay epipolar_ray(int light, vec3 direction) {
     float slope = clamp(cosine / max(sine, 1.0e-9), -EPIPOLAR_LARGEST, EPIPOLAR_LARGEST);
     int root = lines.nodes + line * 2 * lines.cells;
     bool glass = false;
-#if GLASS
+#if GLASS & GLASS_SUN
     glass = texelFetch(epipolar_nodes, epipolar_texel(root), 0).y > 0.0;
 #endif
     return EpipolarRay(root, lines.cells, lines.cells - 1, slope, cosine, sine, lines.distance, lines.cells_per_unit, glass);

@@ -50,7 +50,7 @@ vec3 local_sun_transmittance(Ray ray, Segment segment, float fall) {
 }
 
 // FROXEL_HISTORY keeps one number for the visibility of the sun: so the colour of glass is the light's own, that on the ray.
-#if GLASS && FROXEL_HISTORY
+#if SUN_GLASS && FROXEL_HISTORY
 vec3 glass_over_segment(Ray ray, Segment segment, float fall) {
     vec3 sum = vec3(0.0);
     for (int i = 0; i < 2; ++i) {
@@ -77,7 +77,7 @@ SegmentLight segment_light_parts(Ray ray, Segment segment, Medium m, Optics opti
     float fall = sunlight_fall(ray, segment, sun.x);
     light.sun_visibility = sun_share(ray, segment.begin, segment.end, fall, segment.offset);
     light.sun = sun_scattering(ray, m, sun.effective_length) * local_sun_transmittance(ray, segment, fall);
-#if GLASS && FROXEL_HISTORY
+#if SUN_GLASS && FROXEL_HISTORY
     light.sun *= glass_over_segment(ray, segment, fall);
 #endif
 #endif

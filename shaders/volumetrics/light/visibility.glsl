@@ -1,6 +1,7 @@
 // The visible share of the light that a part of a view ray gathers: EPIPOLAR 0 by one lookup, at a point that an offset
 // (0..1) chooses, so that the mean over all offsets is the share; 1 by the trees of epipolar_share.glsl, with no offset.
-// GLASS: it has a colour, that of the glass which the light has come through.
+// GLASS: it has a colour, that of the glass which the light has come through; the sun's where that may be of the sun, and
+// the lamps' likewise.
 #ifndef VOLUMETRICS_VISIBILITY_GLSL
 #define VOLUMETRICS_VISIBILITY_GLSL
 
@@ -26,6 +27,8 @@
 #else
 #define Visibility float
 #endif
+#define SUN_GLASS ((GLASS & GLASS_SUN) != 0)
+#define LAMP_GLASS ((GLASS & GLASS_LAMPS) != 0)
 // 1: visibility is kept from frame to frame (froxel_history.comp), so that light is wanted with and without it, and it
 // alone is sampled beside the ray.
 #ifndef FROXEL_HISTORY
@@ -48,18 +51,18 @@ vec3 visibility_point(Ray ray, float t) { return ray.origin + ray.visibility_dir
 Visibility lamp_visibility(uint index, GpuLight light, vec3 point) {
     if (light.cone_shadow.z < 0.0) return Visibility(1.0);
     count_work(WORK_SHADOW_LOOKUPS, 1u);
-#if GLASS
+#if LAMP_GLASS
     count_work(WORK_TEXTURE_FETCHES, 1u);
     return light_visibility(index, light, point) * light_filter(index, light, point);
 #else
-    return light_visibility(index, light, point);
+    return Visibility(light_visibility(index, light, point));
 #endif
 }
 
 #if HAS_SUN
 Visibility sun_visibility_at(vec3 point, float view_depth) {
     count_work(WORK_SHADOW_LOOKUPS, 1u);
-#if GLASS && !FROXEL_HISTORY
+#if SUN_GLASS && !FROXEL_HISTORY
     count_work(WORK_TEXTURE_FETCHES, 1u);
     return sun_visibility(point, view_depth) * sun_filter(point, view_depth);
 #else
@@ -73,7 +76,7 @@ EpipolarRay sun_epipolar_ray = EpipolarRay(0, 1, 0, 0.0, 0.0, 1.0, 0.0, 1.0, fal
 
 Visibility sun_share(Ray ray, float begin, float end, float fall, float offset) {
     float share = epipolar_share(sun_epipolar_ray, Gathering(begin, end, fall, vec4(0.0), false));
-#if GLASS
+#if SUN_GLASS
     vec4 lit = vec4(0.0);
     for (int i = 0; i < GLASS_POINTS && share > 0.0 && sun_epipolar_ray.glass; ++i) {
         float t = mix(begin, end, equal_transmittance((float(i) + 0.5) / float(GLASS_POINTS), fall));
@@ -82,7 +85,7 @@ Visibility sun_share(Ray ray, float begin, float end, float fall, float offset) 
     }
     return share * mean_lit(lit);
 #else
-    return share;
+    return Visibility(share);
 #endif
 }
 #else
@@ -110,7 +113,7 @@ Visibility lamp_share(Ray ray, uint index, GpuLight light, LampRay lamp, vec2 re
     EpipolarRay of_lamp = epipolar_ray(1 + int(index), ray.direction);
     if (of_lamp.cells == 0) return Visibility(1.0);  // what is at the eye sees what the eye sees
     float share = epipolar_share(of_lamp, Gathering(reach.x, reach.y, 0.0, parts, true));
-#if GLASS
+#if LAMP_GLASS
     vec4 lit = vec4(0.0);
     for (int i = 0; i < GLASS_POINTS && share > 0.0 && light.cone_shadow.w > 0.0; ++i) {
         vec3 visible = lamp_visibility(
@@ -119,7 +122,7 @@ Visibility lamp_share(Ray ray, uint index, GpuLight light, LampRay lamp, vec2 re
     }
     return share * mean_lit(lit);
 #else
-    return share;
+    return Visibility(share);
 #endif
 #else
     return lamp_visibility(index, light, lamp_point(ray, light, lamp, reach, parts, offset));

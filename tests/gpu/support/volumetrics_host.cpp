@@ -71,7 +71,7 @@ vec3 light_filter(uint index, GpuLight light, vec3 world) { return sun_filter(wo
 constexpr const char* shadow_maps_glsl = R"(
 #include "shaders/interface/shadows.glsl"
 #if GLASS
-vec3 sun_ray_filter(vec3 world) { return stub_glass.rgb; }
+bool sun_ray_meets_glass(vec3 world) { return any(lessThan(stub_glass.rgb, vec3(1.0))); }
 #endif
 const float NO_OCCLUDER = 1.0e9;
 float sun_occluder(vec3 world) {
@@ -209,7 +209,8 @@ Inputs StubHost::inputs(PassList& passes) {
         list_.bind(GL_SHADER_STORAGE_BUFFER, BINDING_CLUSTER_LIGHTS);
     };
     in.has_shadow_maps = has_shadow_maps;
-    in.has_glass = glass.has_value();
+    in.sun_through_glass = glass && (glass_of & GLASS_SUN) != 0;
+    for (volumetrics::Lamp& lamp : in.lamps) lamp.through_glass = glass && (glass_of & GLASS_LAMPS) != 0;
     in.count_work = count_work;
     in.frame_index = frame_index;
     return in;

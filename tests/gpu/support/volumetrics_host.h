@@ -78,7 +78,8 @@ class StubHost {
     /// of shadow maps alone: each of the sun's rays ends at a random height of 0 … 6.
     int shadows = 0;
     bool has_shadow_maps = true;
-    std::optional<glm::vec3> glass;  ///< what it leaves of the light of x < 0
+    std::optional<glm::vec3> glass;          ///< what it leaves of the light of x < 0
+    int glass_of = GLASS_SUN | GLASS_LAMPS;  ///< before which lights there is some
     std::uint32_t frame_index = 0;
     bool count_work = false;
 

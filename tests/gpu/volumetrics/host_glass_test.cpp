@@ -66,6 +66,33 @@ TEST_F(VolumetricsHostGlass, ColoursSunAndLampsAndNothingElse) {
     EXPECT_EQ(lit.pixels, scattering().pixels) << "the sky's light comes through no glass";
 }
 
+TEST_F(VolumetricsHostGlass, LightThatComesThroughNoneStaysClearBesideLightThatDoes) {
+    host.global = {{.sigma_s = glm::vec3(0.05F), .anisotropy = 0.3F}};
+    const glm::vec3 color(0.8F, 0.4F, 0.1F);
+    const auto draw = [&](bool sun, bool lamp) {
+        host.has_sun = sun;
+        host.lights.clear();
+        if (lamp) host.lights = {point_light({0, 3, -5}, 2000)};
+        const Image image = scattering();
+        return glm::vec3(image.at(0, 1)[0], image.at(0, 1)[1], image.at(0, 1)[2]);
+    };
+    for (const char* technique : {"ray_march", "froxel", "billboards", "epipolar", "auto"}) {
+        settings.technique = technique;
+        host.glass.reset();
+        const glm::vec3 sun = draw(true, false), lamp = draw(false, true);
+        host.glass = color;
+        host.glass_of = GLASS_SUN;
+        const glm::vec3 both = draw(true, true);
+        for (int c = 0; c < 3; ++c) {
+            EXPECT_GT(lamp[c], 0.1F * sun[c]);
+            EXPECT_NEAR(both[c] / (color[c] * sun[c] + lamp[c]), 1, 0.02) << technique << " channel " << c;
+        }
+        host.glass_of = GLASS_LAMPS;
+        EXPECT_NEAR(draw(true, false)[2] / sun[2], 1, 0.02) << technique;
+        EXPECT_NEAR(draw(false, true)[2] / lamp[2], color[2], 0.02) << technique;
+    }
+}
+
 TEST_F(VolumetricsHostGlass, EpipolarAsksNoneOfTheRaysWhoseSunlightIsClear) {
     host.global = {{.sigma_s = glm::vec3(0.05F)}};
     host.has_sun = true;

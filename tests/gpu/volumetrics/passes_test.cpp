@@ -87,7 +87,7 @@ TEST_F(VolumetricsPasses, MoreHeightMediaThanTheBlockHoldsAreAnError) {
     EXPECT_THROW(host.render(Settings{}), Error);
 }
 
-constexpr std::size_t most_permutations = 790;
+constexpr std::size_t most_permutations = 950;
 
 TEST_F(VolumetricsPasses, PermutationsBuildWithinWhatOpenGlPromises) {
     ShaderLibrary engine_lighting(data_root());

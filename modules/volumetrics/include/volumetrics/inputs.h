@@ -50,12 +50,13 @@ struct LocalMedium {
 /// are lamps SUN_LAMP_DISTANCE away (shaders/shared/lights.h), with the indices from 0 on.
 struct Lamp {
     std::uint32_t index = 0;
-    glm::vec3 position{0};  ///< m
-    float range = 0;        ///< m; 0: none
-    glm::vec3 axis{0};      ///< unit, of a spot's cone
-    float cos_outer = -1;   ///< of its half angle; -1: a point lamp
-    bool shadow = true;     ///< casts one
-    float intensity = 1;    ///< mean channel, cd, in any unit that all lamps share: which of them matter most
+    glm::vec3 position{0};       ///< m
+    float range = 0;             ///< m; 0: none
+    glm::vec3 axis{0};           ///< unit, of a spot's cone
+    float cos_outer = -1;        ///< of its half angle; -1: a point lamp
+    bool shadow = true;          ///< casts one
+    bool through_glass = false;  ///< glass may stand before what it lights: see Inputs::sun_through_glass
+    float intensity = 1;         ///< mean channel, cd, in any unit that all lamps share: which of them matter most
 };
 
 /// m, in the world.
@@ -91,9 +92,9 @@ struct Inputs {
     std::vector<TextureRef> light_textures;  ///< what shaders/interface/{lights,shadows}.glsl sample
     std::vector<BufferRef> light_buffers;    ///< and read
     std::function<void()> bind_lighting;     ///< binds those; called inside each pass that lights the medium
-    /// shaders/interface/shadows.glsl has sun_filter and light_filter, and some light comes through glass in this
-    /// frame.
-    bool has_glass = false;
+    /// Glass may stand between the sun and what is in view. Where it does, or before a lamp, (define GLASS)
+    /// shaders/interface/shadows.glsl has sun_filter and light_filter.
+    bool sun_through_glass = false;
     bool has_shadow_maps = false;  ///< the host has shaders/interface/shadow_maps.glsl
 
     /// Round all that is drawn over the picture and fogged: there Outputs::fog is wanted, whatever the technique.

@@ -7,6 +7,7 @@
 #include "frame/bound_sources.h"
 #include "frame/resources.h"
 #include "shaders/shared/bindings.h"
+#include "shaders/shared/lights.h"
 #include "techniques/froxel_fog.h"
 #include "volumetrics/volumetrics.h"
 
@@ -70,7 +71,7 @@ std::optional<int> standard_axis(const Frame& frame, const std::string& define) 
     if (define == "LAMPS")
         return frame.inputs.has_lamps ? 1 + static_cast<int>(frame.settings.light.lamp_integration) : 0;
     if (define == "LIGHT_VOLUMES") return frame.resources.light_volumes.axis();
-    if (define == "GLASS") return frame.media.through_glass;
+    if (define == "GLASS") return frame.media.glass;
     if (define == "CHROMATIC") return frame.media.chromatic;
     if (define == "COUNT_WORK") return frame.inputs.count_work;
     return std::nullopt;
@@ -80,8 +81,10 @@ std::optional<int> standard_axis(const Frame& frame, const std::string& define) 
 void make_glass_permutation(Permutation& p) {
     const auto lit = [&](const char* define) { return p.contains(define) && p[define] != 0; };
     const bool told = p.contains("HAS_SUN") || p.contains("LAMPS");
-    if (told && !lit("HAS_SUN") && !lit("LAMPS")) p["GLASS"] = 0;
+    if (told && !lit("HAS_SUN")) p["GLASS"] &= ~GLASS_SUN;
+    if (told && !lit("LAMPS")) p["GLASS"] &= ~GLASS_LAMPS;
     if (p["GLASS"] == 0) return;
+    if (lit("HAS_SUN") && p["GLASS"] == GLASS_LAMPS) p["GLASS"] |= GLASS_SUN;
     const auto at_least = [&](const char* define, int value) {
         if (p.contains(define)) p[define] = std::max(p[define], value);
     };

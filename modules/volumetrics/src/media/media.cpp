@@ -244,7 +244,8 @@ bool is_glass_permutation(const Permutation& p) {
         const auto found = p.find(define);
         return found == p.end() ? absent : found->second;
     };
-    return value("HAS_SUN", 0) + value("LAMPS", 0) > 0 && value("CHROMATIC", 1) == 1 &&
+    const int lit = (value("HAS_SUN", 0) > 0 ? GLASS_SUN : 0) | (value("LAMPS", 0) > 0 ? GLASS_LAMPS : 0);
+    return (p.at("GLASS") == lit || p.at("GLASS") == (lit & GLASS_SUN)) &&
            value("HEIGHT_MEDIA", MAX_HEIGHT_MEDIA) == MAX_HEIGHT_MEDIA && value("LOCAL_MEDIA", 2) > 0 &&
            value("LIGHT_VOLUMES", 1) > 0;
 }
@@ -257,8 +258,9 @@ FrameMedia gather_media(const Inputs& inputs, const Settings& settings) {
     FrameMedia media;
     const TechniqueDesc& desc = technique(settings.technique);
     if (!desc.add) return media;
-    media.through_glass = inputs.has_glass && desc.traits.glass && (inputs.has_sun || inputs.has_lamps);
-    media.chromatic = media.through_glass;
+    if (desc.traits.glass && inputs.has_sun && inputs.sun_through_glass) media.glass |= GLASS_SUN;
+    if (desc.traits.glass && inputs.has_lamps && std::ranges::any_of(inputs.lamps, &Lamp::through_glass))
+        media.glass |= GLASS_LAMPS;
     add_global(inputs, media);
     if (desc.traits.local_media) {
         gather_grids(inputs, media);

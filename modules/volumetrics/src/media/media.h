@@ -44,12 +44,12 @@ struct FrameMedia {
     bool has_global = false;
     bool local_emission = false;
     bool local_noise = false;
-    Grids grids;                 ///< of all inputs
-    bool uses_grids = false;     ///< one of them may be seen, or its shadow; else they are left out
-    bool through_glass = false;  ///< light has the colours of glass
-    bool rayleigh = false;       ///< some medium scatters as air does
-    bool chromatic = false;      ///< some medium's extinction is coloured, or is taken so: always where `rayleigh`
-                                 ///< or `through_glass`, for fewer programs
+    Grids grids;              ///< of all inputs
+    bool uses_grids = false;  ///< one of them may be seen, or its shadow; else they are left out
+    int glass = 0;            ///< GLASS_SUN, GLASS_LAMPS: whose light has its colours
+    bool rayleigh = false;    ///< some medium scatters as air does
+    bool chromatic = false;   ///< some medium's extinction is coloured, or is taken so, for fewer programs: always
+                              ///< where `rayleigh`
 
     [[nodiscard]] bool empty() const { return !has_global && local.empty(); }
 };

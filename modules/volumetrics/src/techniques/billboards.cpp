@@ -25,7 +25,7 @@ const ProgramDesc program{.name = "volumetrics/billboards",
                                    {"LAMPS", {0, 1}},  // 1: at a point, as LampIntegration::center
                                    {"GRIDS", {0, 1}},
                                    {"LIGHT_VOLUMES", {0, 1, 2}},
-                                   {"GLASS", {0, 1}},
+                                   {"GLASS", {0, 1, 2, 3}},
                                    {"CHROMATIC", {0, 1}},
                                    {"COUNT_WORK", {0, 1}}},
                           .valid = [](const Permutation& p) {

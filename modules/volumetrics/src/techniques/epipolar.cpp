@@ -1,11 +1,13 @@
 #include "light/epipolar.h"
 
+#include <algorithm>
 #include <bit>
 #include <optional>
 
 #include "engine/gl/texture.h"
 #include "frame/resources.h"
 #include "media/noise_volume.h"
+#include "shaders/shared/lights.h"
 #include "techniques/epipolar.h"
 #include "techniques/epipolar_sunlight.h"
 #include "techniques/techniques.h"
@@ -21,15 +23,14 @@ namespace {
 
 const ProgramDesc lines_program{.name = "volumetrics/epipolar_lines",
                                 .stages = {{GL_COMPUTE_SHADER, "shaders/volumetrics/light/epipolar_lines.comp"}},
-                                .axes = {{"GLASS", {0, 1}}, {"COUNT_WORK", {0, 1}}},
-                                .valid = {}};
+                                .axes = {{"SUN", {0, 1}}, {"GLASS", {0, 1}}, {"COUNT_WORK", {0, 1}}},
+                                .valid = [](const Permutation& p) { return p.at("GLASS") <= p.at("SUN"); }};
 const ProgramRegistry::Registration lines_registration(lines_program);
 
 /// EPIPOLAR 2 is without the sun, see epipolar_sunlight.h.
 bool is_valid(const Permutation& p) {
     if (!is_epipolar_permutation(p) || !is_glass_permutation(p) || p.at("FEW_LAMPS") > p.at("LAMPS")) return false;
-    return p.at("EPIPOLAR") == 1 ||
-           (p.at("HAS_SUN") == 0 && p.at("GLASS") == 0 && (p.at("GRIDS") == 0 || p.at("LOCAL_MEDIA") == 2));
+    return p.at("EPIPOLAR") == 1 || (p.at("HAS_SUN") == 0 && (p.at("GRIDS") == 0 || p.at("LOCAL_MEDIA") == 2));
 }
 
 const ProgramDesc program{.name = "volumetrics/epipolar",
@@ -42,7 +43,7 @@ const ProgramDesc program{.name = "volumetrics/epipolar",
                                    {"HAS_SUN", {0, 1}},
                                    {"LAMPS", {0, 2}},
                                    {"FEW_LAMPS", {0, 1}},  // technique auto
-                                   {"GLASS", {0, 1}},
+                                   {"GLASS", {0, 1, 2, 3}},
                                    {"CHROMATIC", {0, 1}},
                                    {"COUNT_WORK", {0, 1}}},
                           .valid = is_valid};
@@ -56,7 +57,7 @@ int rows_of(std::int64_t texels) {
 
 const char* reason_for_no_samples(const Frame& frame) {
     if (!frame.inputs.has_sun) return "no sun";
-    if (frame.media.through_glass) return "glass colours light finer than samples are apart";
+    if ((frame.media.glass & GLASS_SUN) != 0) return "glass colours light finer than samples are apart";
     return samples_lines(frame.settings) ? nullptr : "epipolar_step is 1";
 }
 
@@ -79,16 +80,21 @@ TextureRef add_lines(Frame& frame, const EpipolarPlan& plan, TextureRef table, T
     }
     TextureRef nodes = frame.passes.create("volumetrics/epipolar_nodes",
                                            {.format = GL_RG32F, .size = {texels_a_row, rows_of(plan.nodes), 1}});
-    const gl::Program& lines = frame.program(lines_program);
+    const bool sun = plan.lights.front().index == 0, lamps = plan.lights.back().index > 0;
+    const gl::Program* of_sun =
+        sun ? &frame.program(lines_program, {{"SUN", 1}, {"GLASS", frame.media.glass & GLASS_SUN}}) : nullptr;
+    const gl::Program* of_lamps = lamps ? &frame.program(lines_program, {{"SUN", 0}, {"GLASS", 0}}) : nullptr;
     frame.add({.name = "volumetrics/epipolar_lines",
-               .program = lines,
+               .program = sun ? *of_sun : *of_lamps,
                .sources = {{table}, {cells_seen}},
                .images = {{&nodes}},
                .lit = true,
-               .draw = [&lines, lights = plan.lights, sampled = static_cast<bool>(cells_seen)] {
-                   lines.set("sampled", static_cast<int>(sampled));
+               .draw = [of_sun, of_lamps, lights = plan.lights, sampled = static_cast<bool>(cells_seen)] {
                    for (const EpipolarLines& light : lights) {
+                       const gl::Program& lines = light.index == 0 ? *of_sun : *of_lamps;
+                       lines.set("sampled", static_cast<int>(sampled && light.index == 0));
                        lines.set("light", static_cast<int>(light.index));
+                       lines.use();
                        glDispatchCompute(static_cast<GLuint>(light.lines), 1, 1);
                    }
                }});
@@ -118,6 +124,9 @@ Estimate add_epipolar(Frame& frame, bool few_lamps) {
     Permutation permutation = epipolar_permutation(frame);
     permutation["EPIPOLAR"] = 1;
     permutation["FEW_LAMPS"] = few_lamps && !frame.media.few_lamps.empty();
+    permutation["GLASS"] = frame.media.glass;
+    if (few_lamps && std::ranges::none_of(frame.media.few_lamps, &Lamp::through_glass))
+        permutation["GLASS"] &= ~GLASS_LAMPS;
     permutation["LAMPS"] = frame.inputs.has_lamps && (!few_lamps || !frame.media.few_lamps.empty()) ? 2 : 0;
     Pass::Source samples, fixed_up;
     if (sunlight) {
@@ -126,6 +135,7 @@ Estimate add_epipolar(Frame& frame, bool few_lamps) {
         fixed_up = {sunlight->fixed_up};
         permutation["EPIPOLAR"] = 2;
         permutation["HAS_SUN"] = 0;
+        permutation["GLASS"] &= ~GLASS_SUN;
         if (frame.media.uses_grids) permutation["LOCAL_MEDIA"] = 2;
     }
     Estimate estimate = frame.create_estimate();

@@ -20,7 +20,7 @@ const ProgramDesc program{.name = "volumetrics/froxel_light",
                                    {"GRIDS", {0, 1}},
                                    {"HAS_SUN", {0, 1}},
                                    {"LAMPS", {0, 1, 2}},  // 1 + LampIntegration
-                                   {"GLASS", {0, 1}},
+                                   {"GLASS", {0, 1, 2, 3}},
                                    {"CHROMATIC", {0, 1}},
                                    {"FROXEL_HISTORY", {0, 1}},
                                    {"COUNT_WORK", {0, 1}}},

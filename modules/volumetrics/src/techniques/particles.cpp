@@ -26,7 +26,7 @@ const ProgramDesc simulate_program{
              {"LAMPS", {0, 2}},  // 2: over a segment, as LampIntegration::segment
              {"LIGHT_VOLUMES", {0, 1, 2}},
              grids,
-             {"GLASS", {0, 1}},
+             {"GLASS", {0, 1, 2, 3}},
              count_work},
     .valid = [](const Permutation& p) { return is_light_volume_permutation(p) && is_glass_permutation(p); }};
 const ProgramDesc draw_program{.name = "volumetrics/particles",

@@ -27,7 +27,7 @@ const ProgramDesc program{.name = "volumetrics/march",
                                    {"GRIDS", {0, 1}},
                                    {"HAS_SUN", {0, 1}},
                                    {"LAMPS", {0, 1, 2}},  // 1 + LampIntegration
-                                   {"GLASS", {0, 1}},
+                                   {"GLASS", {0, 1, 2, 3}},
                                    {"CHROMATIC", {0, 1}},
                                    {"PARTS", {0, 1}},  // see reason_for_no_parts
                                    {"COUNT_WORK", {0, 1}}},

@@ -9,7 +9,7 @@ namespace tyndall::volumetrics {
 namespace {
 
 const PermutationAxis height_media{"HEIGHT_MEDIA", {0, 1, MAX_HEIGHT_MEDIA}}, local_media{"LOCAL_MEDIA", {0, 1}},
-    grids{"GRIDS", {0, 1}}, glass{"GLASS", {0, 1}};
+    grids{"GRIDS", {0, 1}}, glass{"GLASS", {0, 1, 2}};
 
 bool is_valid(const Permutation& p) {
     return is_grid_permutation(p) && is_glass_permutation(p);
