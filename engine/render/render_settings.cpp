@@ -41,7 +41,10 @@ const SettingsTable& render_settings_table() {
                      permutation)
             .integer_of(&S::cascade_size,
                         {"cascade_size", "Cascade size",
-                         "Side of each of the sun's 4 shadow cascades; finer shadows for memory and fill.", "px"},
+                         "Pixels of each of the sun's 4 shadow cascades along a side; its map is a sixteenth "
+                         "wider, for the camera "
+                         "to move in. Finer shadows for memory and fill.",
+                         "px"},
                         {256, 512, 1024, 2048, 4096}, resource)
             .real(&S::cascade_distance,
                   {"cascade_distance", "Cascade distance",

@@ -14,7 +14,7 @@ struct RenderSettings {
     int sky_directions = 192, sky_cells = 48;
     float sky_cell = 0.5f;  ///< m
     bool shadows = true;
-    int cascade_size = 1024;        ///< px per side of each of the 4 cascades
+    int cascade_size = 1024;        ///< px per side of each of the 4 cascades: see cascade_map_size
     float cascade_distance = 80;    ///< m of view depth the cascades cover
     float cascade_split = 0.75f;    ///< 0 uniform … 1 logarithmic
     int static_shadow_size = 2048;  ///< px, the baked map behind the cascades

@@ -10,9 +10,6 @@ namespace {
 
 // Rim of a map in texels, each side: the filter.
 constexpr int rim = static_cast<int>(SHADOW_FILTER_RADIUS + 1.5f);
-// The texels that a cascade's centre moves at once, as a part of its map: as long as it stays nothing is drawn
-// again.
-constexpr int moves = 16;
 
 // `center` and `depth_radius` along the rows of `basis`. Double, because a translation far from the origin would
 // otherwise lose the fraction of a texel that must stay fixed.
@@ -65,15 +62,15 @@ SliceSphere slice_sphere(float yfov, float aspect, float begin, float end) {
     return {center, std::sqrt((end - center) * (end - center) + end * end * k2)};
 }
 
-SunMap fit_cascade(const View& view, float begin, float end, glm::vec3 sun_direction, int map_size) {
-    const int step = map_size / moves;
-    TYNDALL_CHECK_LT(2 * rim + step, map_size);
+SunMap fit_cascade(const View& view, float begin, float end, glm::vec3 sun_direction, int size) {
+    TYNDALL_CHECK_LT(2 * rim, size);
     const SliceSphere sphere = slice_sphere(view.yfov, view.aspect, begin, end);
-    const double texel = 2.0 * sphere.radius / (map_size - 2 * rim - step);
+    const double texel = 2.0 * sphere.radius / (size - 2 * rim);
     const glm::vec3 forward = -glm::vec3(view.view[0][2], view.view[1][2], view.view[2][2]);
     const glm::dvec3 world_center = glm::dvec3(view.eye) + glm::dvec3(forward) * double(sphere.center);
     const glm::dmat3 rows = rows_of(sun_basis(sun_direction));
-    const double grid = step * texel;
+    const int map_size = cascade_map_size(size);
+    const double grid = (map_size - size) * texel;
     const glm::dvec3 center = glm::round(world_center * rows / grid) * grid;  // v * M takes dots with columns
     return make_map(rows, center, texel * map_size, sphere.radius + grid, texel);
 }

@@ -31,11 +31,16 @@ struct SliceSphere {
 };
 [[nodiscard]] SliceSphere slice_sphere(float yfov, float aspect, float begin, float end);
 
-/// The map of one cascade: the slice's sphere, its centre moved to the nearest point of a grid that is fixed in the
-/// world, a sixteenth of the map wide, with room for that and for the filter. So texels stay where they are, and
-/// the map the same, and need not be drawn again, until the camera has moved the sphere so far. Casters nearer to
-/// the sun than the map must be drawn with depth clamp. Needs map_size >= 32.
-[[nodiscard]] SunMap fit_cascade(const View& view, float begin, float end, glm::vec3 sun_direction, int map_size);
+/// Side (px) of the map of a cascade of `size` px, which has a sixteenth more for its part of the view to move in.
+[[nodiscard]] constexpr int cascade_map_size(int size) {
+    return size + size / 16;
+}
+
+/// The map of one cascade: the slice's sphere over `size` px with a rim for the filter, its centre moved to the
+/// nearest point of a grid that is fixed in the world and a sixteenth of them wide. So texels stay where they are,
+/// and the map the same, and need not be drawn again, until the camera has moved the sphere so far. Casters nearer
+/// to the sun than the map must be drawn with depth clamp.
+[[nodiscard]] SunMap fit_cascade(const View& view, float begin, float end, glm::vec3 sun_direction, int size);
 
 /// The map of everything: `bounds` seen from the sun. Empty bounds give a map of the unit box at the origin.
 [[nodiscard]] SunMap fit_static(const Aabb& bounds, glm::vec3 sun_direction, int map_size);

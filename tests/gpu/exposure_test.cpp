@@ -19,7 +19,10 @@ const std::vector<std::string> lit_techniques{"ray_march",      "froxel",       
 
 class Exposure : public GlTest {
   protected:
-    Exposure() { options_.more_layers = {"color", "emissive"}; }
+    Exposure() {
+        options_.more_layers = {"color", "emissive"};
+        volumetrics_.settings.froxels.pixels = 0;
+    }
 
     /// All that shines is `factor` times as bright; the exposure by as much less.
     Scene lit(float factor) const {

@@ -166,6 +166,7 @@ class GlassInAir : public Glass {
         volumetrics_.settings.march.max_distance = 60;
         volumetrics_.settings.froxels.x = 24;
         volumetrics_.settings.froxels.y = 16;
+        volumetrics_.settings.froxels.pixels = 0;
         volumetrics_.settings.reference.steps = 64;
     }
     /// Air under a light, and between them a level sheet over all that is in view, or over its left half.

@@ -214,10 +214,19 @@ TEST_F(ShadowSun, MapsAreDrawnAgainOnlyWhenSomethingChanged) {
     EXPECT_EQ(rig.sun.triangles_drawn(), 12u * static_cast<unsigned>(seen)) << "of the moving box alone";
     EXPECT_FALSE(rig.ran("shadow_sun/static"));
 
-    rig.view = look_at({0.5f, 2, 8}, {0.5f, 1, 0}, 1.0f, 0.1f, 1.5f);
-    rig.frame();
-    EXPECT_EQ(rig.ran_with_prefix("shadow_sun/cascade"), SUN_CASCADES);
+    const View first = rig.view;
+    const auto redrawn_at = [&](float x) {
+        rig.view = look_at({x, 2, 8}, {x, 1, 0}, 1.0f, 0.1f, 1.5f);
+        rig.frame();
+        return rig.ran_with_prefix("shadow_sun/cascade");
+    };
+    EXPECT_EQ(redrawn_at(8), SUN_CASCADES);
     EXPECT_FALSE(rig.ran("shadow_sun/static"));
+    int redrawn = 0;
+    for (int i = 1; i <= 100; ++i) redrawn += redrawn_at(8 + 0.01f * float(i));
+    EXPECT_LT(redrawn, 40) << "of 400, on a way of 1 m";
+    rig.view = first;
+    rig.frame();
 
     rig.scene.nodes[7].rotation = glm::quatLookAt(glm::vec3(0, -1, 0), glm::vec3(0, 0, 1));  // the sun
     rig.frame();

@@ -21,6 +21,7 @@ class Transparent : public GlTest {
     Transparent() {
         volumetrics_.settings.froxels.x = 16;
         volumetrics_.settings.froxels.y = 16;
+        volumetrics_.settings.froxels.pixels = 0;
         volumetrics_.settings.technique = "froxel";
     }
     /// A Lambert surface, so that nothing but what a test says sends light.

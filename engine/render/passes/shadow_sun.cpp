@@ -50,7 +50,8 @@ void ShadowSunPass::release(FrameContext& context, const std::string& reason) {
 }
 
 void ShadowSunPass::resize(const RenderSettings& settings) {
-    ensure(cascades_, map_desc(gl::TextureKind::d2_array, settings.cascade_size, SUN_CASCADES), "sun cascades");
+    const int size = cascade_map_size(settings.cascade_size);
+    ensure(cascades_, map_desc(gl::TextureKind::d2_array, size, SUN_CASCADES), "sun cascades");
     if (still_ && still_.desc() != cascades_.desc()) {
         still_ = {};
         for (Map& map : maps_) map.kept_key = 0;
@@ -75,7 +76,7 @@ void ShadowSunPass::fit(FrameContext& context, glm::vec3 direction) {
                                   settings.static_shadow_size);
     maps_[static_map].fit = all;
     frame.sun_static = all.world_to_texture;
-    frame.sun_static_texel = glm::vec4(all.texel, 1.0f / static_cast<float>(settings.cascade_size),
+    frame.sun_static_texel = glm::vec4(all.texel, 1.0f / static_cast<float>(cascades_.size().x),
                                        1.0f / static_cast<float>(settings.static_shadow_size), 0);
 }
 
@@ -177,8 +178,8 @@ void ShadowSunPass::add_glass(FrameContext& context, Output& out) {
             context.passes.skip(glass_pass_name(i), "no glass between the sun and what is in view");
         return;
     }
-    ensure(glass_, ShadowGlass::desc(context.settings.cascade_size, SUN_CASCADES + 1), "sun glass");
-    context.frame.sun_static_texel.w = static_cast<float>(context.settings.cascade_size);
+    ensure(glass_, ShadowGlass::desc(cascades_.size().x, SUN_CASCADES + 1), "sun glass");
+    context.frame.sun_static_texel.w = static_cast<float>(glass_.size().x);
     const ShadowCasters casters(context.scene, context.gpu, true);
     out.glass = context.passes.import("sun glass", glass_);
     for (int i = 0; i <= SUN_CASCADES; ++i)

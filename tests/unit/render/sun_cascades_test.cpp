@@ -7,7 +7,7 @@
 namespace tyndall {
 namespace {
 
-constexpr int map_size = 1024;
+constexpr int cascade_size = 1024, map_size = cascade_map_size(cascade_size);
 const glm::vec3 sun_direction = glm::normalize(glm::vec3(0.4f, -0.7f, 0.55f));
 
 glm::vec3 texture_of(const SunMap& map, glm::vec3 world) {
@@ -59,7 +59,7 @@ TEST(SunCascades, MapHoldsItsWholeSliceWithARimForTheFilter) {
         const glm::vec3 eye = 500.0f * glm::vec3(u(random), u(random), u(random));
         const View view = look_at(eye, eye + glm::vec3(u(random), u(random), u(random)), 1.0f, 0.1f, 1.78f);
         const glm::vec3 direction(u(random), -1, u(random));
-        const SunMap map = fit_cascade(view, 4, 20, direction, map_size);
+        const SunMap map = fit_cascade(view, 4, 20, direction, cascade_size);
         const glm::mat4 inverse_view = glm::inverse(view.view);
         for (int i = 0; i < 50; ++i) {
             const float depth = 12 + 8 * u(random);
@@ -75,7 +75,7 @@ TEST(SunCascades, MapHoldsItsWholeSliceWithARimForTheFilter) {
 
 TEST(SunCascades, DepthIsGreaterNearerToTheSun) {
     const View view = look_at({0, 2, 0}, {3, 1, -4}, 1.0f, 0.1f, 1.5f);
-    const SunMap map = fit_cascade(view, 0.1f, 20, sun_direction, map_size);
+    const SunMap map = fit_cascade(view, 0.1f, 20, sun_direction, cascade_size);
     const glm::vec3 a = texture_of(map, {1, 1, -2});
     const glm::vec3 b = texture_of(map, glm::vec3(1, 1, -2) - sun_direction);
     EXPECT_GT(b.z, a.z);
@@ -85,7 +85,7 @@ TEST(SunCascades, DepthIsGreaterNearerToTheSun) {
 
 TEST(SunCascades, TexelIsTheWorldSizeOfATexel) {
     const View view = look_at({0, 2, 0}, {3, 1, -4}, 1.0f, 0.1f, 1.5f);
-    const SunMap map = fit_cascade(view, 0.1f, 20, sun_direction, map_size);
+    const SunMap map = fit_cascade(view, 0.1f, 20, sun_direction, cascade_size);
     const glm::vec3 right = glm::transpose(sun_basis(sun_direction))[0];
     const glm::vec3 step = texture_of(map, right * map.texel) - texture_of(map, glm::vec3(0));
     EXPECT_NEAR(step.x * map_size, 1, 1e-3);
@@ -96,7 +96,7 @@ TEST(SunCascades, TexelIsTheWorldSizeOfATexel) {
 TEST(SunCascades, TexelGridStaysFixedWhenTheCameraMovesAndTurns) {
     const glm::vec3 point(3.1f, 0.7f, -6.3f);
     const auto place_in_texel = [&](const View& view) {
-        return glm::fract(glm::vec2(texture_of(fit_cascade(view, 2, 12, sun_direction, map_size), point)) *
+        return glm::fract(glm::vec2(texture_of(fit_cascade(view, 2, 12, sun_direction, cascade_size), point)) *
                           float(map_size));
     };
     const glm::vec2 first = place_in_texel(look_at({0, 1.7f, 0}, {0, 1.7f, -10}, 1.0f, 0.1f, 1.78f));
@@ -115,9 +115,9 @@ TEST(SunCascades, TexelGridStaysFixedWhenTheCameraMovesAndTurns) {
 TEST(SunCascades, MatrixStaysTheSameForASixteenthOfTheMap) {
     const auto map = [&](float x) {
         const View view = look_at({x, 1.7f, 0}, {x, 1.7f, -10}, 1.0f, 0.1f, 1.78f);
-        return fit_cascade(view, 20, 80, sun_direction, map_size);
+        return fit_cascade(view, 20, 80, sun_direction, cascade_size);
     };
-    const float sixteenth = map_size / 16 * map(0).texel;
+    const float sixteenth = cascade_size / 16 * map(0).texel;
     int changes = 0;
     for (int i = 0; i < 400; ++i)
         changes += map(0.01f * sixteenth * float(i)).world_to_texture !=
@@ -141,7 +141,7 @@ TEST(SunCascades, StaticMapHoldsTheBounds) {
 
 TEST(SunCascades, CasterVolumeReachesTowardsTheSunOnly) {
     const View view = look_at({0, 2, 0}, {0, 2, -4}, 1.0f, 0.1f, 1.5f);
-    const SunMap map = fit_cascade(view, 0.1f, 10, sun_direction, map_size);
+    const SunMap map = fit_cascade(view, 0.1f, 10, sun_direction, cascade_size);
     const Frustum volume = caster_volume(map);
     const glm::vec3 inside = view.eye + glm::vec3(0, 0, -5);
     EXPECT_TRUE(volume.intersects_sphere(inside, 0.01f));
