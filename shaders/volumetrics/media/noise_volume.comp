@@ -28,14 +28,27 @@ bool meets_noise() {
     return noise;
 }
 
+// What is lit has as many columns or fewer: of those that meet this one.
+float farthest_through(ivec2 column, ivec2 columns) {
+    ivec2 lit = textureSize(farthest_view_depth, 0);
+    ivec2 low = column * lit / columns;
+    ivec2 high = ((column + 1) * lit - 1) / columns;
+    float farthest = 0.0;
+    for (int y = low.y; y <= high.y; ++y)
+        for (int x = low.x; x <= high.x; ++x) {
+            count_work(WORK_TEXTURE_FETCHES, 1u);
+            farthest = max(farthest, texelFetch(farthest_view_depth, ivec2(x, y), 0).r);
+        }
+    return farthest;
+}
+
 void main() {
     ivec3 size = imageSize(sums);
     ivec2 column = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(column, size.xy))) return;
     Ray ray = view_ray((vec2(column) + 0.5) / vec2(size.xy));
-    count_work(WORK_TEXTURE_FETCHES, 1u);
     // Pixels beside the column may see a little farther than it.
-    float seen = 1.05 * texelFetch(farthest_view_depth, column, 0).r / ray.forward_cosine;
+    float seen = 1.05 * farthest_through(column, size.xy) / ray.forward_cosine;
     find_chords(ray, 0.0, seen, false);
     if (!meets_noise()) {  // the volume was cleared before
         flush_work();

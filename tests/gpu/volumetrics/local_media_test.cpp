@@ -1,5 +1,6 @@
 // Local media through the froxel volume against quadrature of their shapes.
 
+#include <algorithm>
 #include <cmath>
 
 #include "tests/gpu/support/gl_test.h"
@@ -157,6 +158,24 @@ TEST_P(VolumetricsLocalMedia, MediaOutOfViewCostNothing) {
     const Frame frame = host.render(fine_settings());
     EXPECT_TRUE(frame.live_passes.empty());
     EXPECT_EQ(frame.persistent_bytes, 0U);
+}
+
+// The volume of noise keeps its columns.
+TEST_P(VolumetricsLocalMedia, NoiseIsAsFineInPicturesThatHaveFewerColumnsOfFroxels) {
+    host.view_depth = [](int x, int) { return x < 5 ? 8.0F : 20.0F; };
+    host.local = {{.center = {0, 0, -10},
+                   .half_extent = glm::vec3(4),
+                   .softness = 1,
+                   .sigma_s = glm::vec3(0.2F),
+                   .noise_scale = 0.7F,
+                   .noise_amount = 1}};
+    Settings settings = fine_settings();
+    const Image all = host.render(settings).transmittance;
+    settings.froxels.pixels = 2;
+    const Image few = host.render(settings).transmittance;
+    const auto [least, most] = std::ranges::minmax(all.pixels);
+    EXPECT_LT(least, 0.7F * most);
+    for (std::size_t i = 0; i < all.pixels.size(); ++i) EXPECT_NEAR(few.pixels[i], all.pixels[i], 0.005F) << i;
 }
 
 }  // namespace
