@@ -12,7 +12,7 @@
 float sun_occluder(vec3 world) { return sun_shadow_occluder(world); }
 float light_occluder(uint index, GpuLight light, vec3 world) { return light_shadow_occluder(light, world); }
 
-// Where Inputs::has_glass: whether the sun's ray through a point passes glass before its first surface, wherever on the ray
+// Where Inputs::sun_through_glass: whether the sun's ray through a point passes glass before its first surface, wherever on the ray
 // the point lies. Where it says so of rays that pass none, time is lost and nothing else.
 #if GLASS
 bool sun_ray_meets_glass(vec3 world) { return sun_ray_glass(world); }

@@ -9,7 +9,7 @@
 float sun_visibility(vec3 world, float view_depth) { return sun_shadow_volume(world, view_depth); }
 float light_visibility(uint index, GpuLight light, vec3 world) { return light_shadow_volume(light, world); }
 
-// Optional, where Inputs::has_glass: what glass leaves of each channel of light that is visible, 0 to 1.
+// Optional, where Inputs::sun_through_glass or a lamp's through_glass: what glass leaves of each channel of light that is visible, 0 to 1.
 #if GLASS
 vec3 sun_filter(vec3 world, float view_depth) { return sun_glass(world, view_depth); }
 vec3 light_filter(uint index, GpuLight light, vec3 world) { return light_glass(light, world); }
