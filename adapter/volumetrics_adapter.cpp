@@ -69,6 +69,8 @@ void add_lights(volumetrics::Inputs& inputs, const FrameContext& frame, const Li
     const FrameFacts& facts = frame.facts;
     inputs.has_sun = facts.has_sun;
     inputs.sun_direction = glm::vec3(frame.frame.sun_direction);
+    const auto sun = frame.scene.sun();
+    inputs.sun_shadow = frame.settings.shadows && sun && frame.scene.lights[*sun].shadow;
     inputs.has_lamps = facts.local_lights_in_view > 0;
     inputs.has_ambient = facts.has_ambient;
     inputs.has_sky_radiance = facts.sky_visibility;

@@ -42,8 +42,7 @@ const SettingsTable& render_settings_table() {
             .integer_of(&S::cascade_size,
                         {"cascade_size", "Cascade size",
                          "Pixels of each of the sun's 4 shadow cascades along a side; its map is a sixteenth "
-                         "wider, for the camera "
-                         "to move in. Finer shadows for memory and fill.",
+                         "wider, for the camera to move in. Finer shadows for memory and fill.",
                          "px"},
                         {256, 512, 1024, 2048, 4096}, resource)
             .real(&S::cascade_distance,

@@ -75,6 +75,7 @@ Visibility sun_visibility_at(vec3 point, float view_depth) {
 EpipolarRay sun_epipolar_ray = EpipolarRay(0, 1, 0, 0.0, 0.0, 1.0, 0.0, 1.0, false);  // set once a pixel
 
 Visibility sun_share(Ray ray, float begin, float end, float fall, float offset) {
+    if (sun_epipolar_ray.cells == 0) return Visibility(1.0);  // it casts no shadow
     float share = epipolar_share(sun_epipolar_ray, Gathering(begin, end, fall, vec4(0.0), false));
 #if SUN_GLASS
     vec4 lit = vec4(0.0);

@@ -209,6 +209,7 @@ Inputs StubHost::inputs(PassList& passes) {
         list_.bind(GL_SHADER_STORAGE_BUFFER, BINDING_CLUSTER_LIGHTS);
     };
     in.has_shadow_maps = has_shadow_maps;
+    in.sun_shadow = sun_shadow;
     in.sun_through_glass = glass && (glass_of & GLASS_SUN) != 0;
     for (volumetrics::Lamp& lamp : in.lamps) lamp.through_glass = glass && (glass_of & GLASS_LAMPS) != 0;
     in.count_work = count_work;

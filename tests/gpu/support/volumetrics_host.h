@@ -77,7 +77,7 @@ class StubHost {
     /// the half x < 0 of the plane z = -6 shadows lamps. 3: the half x < 0 of the plane y = 4 shadows the sun. 4,
     /// of shadow maps alone: each of the sun's rays ends at a random height of 0 … 6.
     int shadows = 0;
-    bool has_shadow_maps = true;
+    bool has_shadow_maps = true, sun_shadow = true;
     std::optional<glm::vec3> glass;          ///< what it leaves of the light of x < 0
     int glass_of = GLASS_SUN | GLASS_LAMPS;  ///< before which lights there is some
     std::uint32_t frame_index = 0;

@@ -98,6 +98,18 @@ TEST_F(VolumetricsEpipolar, UnshadowedItIsTheClosedForm) {
     EXPECT_LE(nodes_a_ray(), 2 * 3.0) << "one node for each light and segment";
 }
 
+TEST_F(VolumetricsEpipolar, ASunWithoutAShadowHasNoLines) {
+    host.shadows = 0;
+    const Frame asked = render("epipolar");
+    host.sun_shadow = false;
+    for (const int step : {1, 8}) {
+        settings.epipolar.step = step;
+        const Frame found = render("epipolar");
+        EXPECT_EQ(found.skipped.at("volumetrics/epipolar_lines"), "no light in view that casts shadows");
+        EXPECT_EQ(found.scattering.pixels, asked.scattering.pixels) << step;
+    }
+}
+
 // With more steps allowed than any ray needs: one of a ray in one medium or along a layer, and few where it leaves
 // haze for fog.
 TEST_F(VolumetricsEpipolar, TakesAsManyStepsAsMediaNeed) {

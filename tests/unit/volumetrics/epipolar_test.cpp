@@ -160,6 +160,13 @@ TEST_F(EpipolarPlanTest, ALampAtTheEyeNeedsNoLines) {
     EXPECT_TRUE(plan().lights.empty());
 }
 
+TEST_F(EpipolarPlanTest, ASunWithoutAShadowNeedsNoLines) {
+    sun_at({0.1F, 0.5F, -1});
+    EXPECT_EQ(plan().lights.size(), 1U);
+    inputs.sun_shadow = false;
+    EXPECT_EQ(plan().lights.size(), 0U);
+}
+
 TEST_F(EpipolarPlanTest, ALampWithoutAShadowNeedsNoLines) {
     inputs.lamps = {{.index = 0, .position = {0, 0, -2}, .range = 5, .shadow = false}};
     EXPECT_TRUE(plan().lights.empty());

@@ -83,6 +83,7 @@ struct Inputs {
 
     bool has_sun = false;
     glm::vec3 sun_direction{0, -1, 0};  ///< unit, in which its light travels: as sun_direction() in the shaders
+    bool sun_shadow = true;             ///< casts one; read with has_shadow_maps alone
     bool has_lamps = false;             ///< local lights are in view
     std::vector<Lamp> lamps;            ///< those; local media do not attenuate the light of lamps left out
     bool has_ambient = false;

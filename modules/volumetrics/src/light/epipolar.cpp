@@ -155,7 +155,7 @@ EpipolarPlan plan_epipolar(const Inputs& inputs, const std::vector<Lamp>& lamps,
                            glm::ivec2 pixels) {
     const Picture picture = picture_of(inputs, pixels);
     EpipolarPlan with_sun;
-    if (inputs.has_sun) {
+    if (inputs.has_sun && inputs.sun_shadow) {
         float spacing = settings.epipolar.spacing;
         EpipolarLines sun = sun_lines(picture, -inputs.sun_direction, settings, spacing);
         while (nodes_of(sun) > most_epipolar_nodes / 2)

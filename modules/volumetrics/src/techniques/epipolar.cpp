@@ -57,6 +57,7 @@ int rows_of(std::int64_t texels) {
 
 const char* reason_for_no_samples(const Frame& frame) {
     if (!frame.inputs.has_sun) return "no sun";
+    if (!frame.inputs.sun_shadow) return "the sun casts no shadow";
     if ((frame.media.glass & GLASS_SUN) != 0) return "glass colours light finer than samples are apart";
     return samples_lines(frame.settings) ? nullptr : "epipolar_step is 1";
 }
