@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <glm/glm.hpp>
 #include <string>
 #include <vector>
 
@@ -82,7 +81,7 @@ struct TemporalSettings {
 /// Of local media, of the technique froxel, and of the fog in front of transparents.
 struct FroxelSettings {
     int x = 80, y = 45, z = 64;  ///< 8 … 512, 8 … 512, 8 … 256 froxels
-    int pixels = 3;              ///< 0 … 64 px, least width of a column in the picture: see froxel_size
+    int pixels = 3;              ///< 0 … 64 px, least width and height of a column in the picture; 0: none
     float far = 128;             ///< m, 4 … 4096 of view depth
     DepthDistribution distribution = DepthDistribution::automatic;
     /// Relative thickness of the slices in each eighth of them: any positive numbers make a rising curve.
@@ -164,11 +163,6 @@ struct Settings {
 };
 
 [[nodiscard]] const SettingsTable& settings_table();
-
-/// The columns and slices of the froxels of a picture: those that are set, but columns no narrower or lower than
-/// `froxels.pixels`, of which it has so many that all are seen, in steps of 8 across and 4 up. The noise of local
-/// media keeps the columns that are set.
-[[nodiscard]] glm::ivec3 froxel_size(const Settings& settings, glm::ivec2 picture);
 
 /// The eight of the curve.
 inline constexpr std::array froxel_curve_settings{

@@ -431,15 +431,6 @@ const SettingsTable& settings_table() {
     return growing_settings_table();
 }
 
-glm::ivec3 froxel_size(const Settings& settings, glm::ivec2 picture) {
-    const FroxelSettings& froxels = settings.froxels;
-    const glm::ivec3 all{froxels.x, froxels.y, froxels.z};
-    if (froxels.pixels == 0) return all;
-    const glm::ivec2 step{8, 4};
-    const glm::ivec2 columns = (picture + froxels.pixels - 1) / froxels.pixels;
-    return {glm::min(glm::ivec2(all), glm::max((columns + step - 1) / step * step, glm::ivec2(8))), all.z};
-}
-
 const std::vector<std::string>& spatial_kernel_names() {
     static const std::vector<std::string> names{"gaussian1", "box3", "box5", "binomial3", "binomial5"};
     return names;

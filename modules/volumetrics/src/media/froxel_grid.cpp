@@ -45,6 +45,15 @@ float FroxelGrid::view_depth(float w) const {
                                               : glsl::froxel_view_depth_from_w(distribution, w, nearest, farthest);
 }
 
+glm::ivec3 froxel_size(const Settings& settings, glm::ivec2 picture) {
+    const FroxelSettings& froxels = settings.froxels;
+    const glm::ivec3 all{froxels.x, froxels.y, froxels.z};
+    if (froxels.pixels == 0) return all;
+    const glm::ivec2 step{8, 4};
+    const glm::ivec2 columns = (picture + froxels.pixels - 1) / froxels.pixels;
+    return {glm::min(glm::ivec2(all), glm::max((columns + step - 1) / step * step, glm::ivec2(8))), all.z};
+}
+
 FroxelGrid froxel_grid(const Inputs& inputs, const Settings& settings) {
     FroxelGrid grid{.size = froxel_size(settings, inputs.size),
                     .distribution = glsl::FROXEL_LINEAR,

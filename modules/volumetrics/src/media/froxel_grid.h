@@ -6,6 +6,11 @@
 
 namespace tyndall::volumetrics {
 
+/// The columns and slices of the froxels of a picture: those that are set, but columns no narrower or lower than
+/// `froxels.pixels`, of which it has so many that all are seen, in steps of 8 across and 4 up. The noise of local
+/// media keeps the columns that are set.
+[[nodiscard]] glm::ivec3 froxel_size(const Settings& settings, glm::ivec2 picture);
+
 /// The froxel volume: size, and the view depths [m] its slices divide (shaders/lib/froxel.glsl).
 struct FroxelGrid {
     glm::ivec3 size;

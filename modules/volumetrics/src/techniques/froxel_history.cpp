@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "frame/resources.h"
+#include "media/froxel_grid.h"
 #include "reconstruction/reprojection.h"
 #include "techniques/froxel_steps.h"
 

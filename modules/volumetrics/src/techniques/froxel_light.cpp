@@ -1,5 +1,6 @@
 #include "engine/gl/program_limits.h"
 #include "frame/resources.h"
+#include "media/froxel_grid.h"
 #include "techniques/froxel_history.h"
 #include "techniques/froxel_steps.h"
 
