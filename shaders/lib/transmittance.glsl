@@ -47,8 +47,9 @@ float mean_exponential(float x) {
 
 // --- Exponential height medium: density(y) = exp(-(y - base) / falloff), falloff > 0, not clamped below base.
 
-// The exponent is held at this value (density 1.1e26), so that products with lengths stay finite.
-const float HEIGHT_MAX_EXPONENT = 60.0f;
+// The exponent is held at this value (density 2.4e17), so that with any sigma_t up to 1e3 the optical depth of 1e9 m stays
+// below 1e30: where that is cut off, light would no longer be in proportion to it.
+const float HEIGHT_MAX_EXPONENT = 40.0f;
 
 // Stands for an infinite density length [m]: any sigma_t above 1e-28 makes the transmittance 0, and sigma_t = 0
 // gives 1.

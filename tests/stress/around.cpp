@@ -32,6 +32,19 @@ int radius_of(const StressFrame& frame) {
     return 0;
 }
 
+/// How far depths within a block's reach of a pixel lie apart, relative to its own; over a silhouette 0: pixels
+/// around see the one and the other.
+double depth_spread(const Around& range, int x, int y) {
+    constexpr double silhouette = 0.1;
+    const glm::ivec2 last = range.depth.size - 1;
+    const float here = range.depth.at(x, y)[0];
+    double spread = 0;
+    for (int j = std::max(y - range.block + 1, 0); here > 0 && j <= std::min(y + range.block - 1, last.y); ++j)
+        for (int i = std::max(x - range.block + 1, 0); i <= std::min(x + range.block - 1, last.x); ++i)
+            spread = std::max(spread, std::abs(double(range.depth.at(i, j)[0]) / here - 1));
+    return spread < silhouette ? spread : 0;
+}
+
 Image mean_of(const std::vector<Layers>& frames, Image Layers::*layer) {
     Image mean = frames.front().*layer;
     for (std::size_t i = 1; i < frames.size(); ++i)
@@ -66,6 +79,10 @@ Around around(const StressFrame& frame, const std::vector<Layers>& plain, Image 
                  .blocks = frame.feature == Feature::low_resolution,
                  .least = first,
                  .most = first};
+    if (range.blocks) {
+        range.depth = plain.front().depth;
+        range.block = frame.options.volumetrics.resolution.size == volumetrics::Resolution::half ? 2 : 4;
+    }
     for (const Layers& layers : plain)
         for (std::size_t k = 0; k < first.pixels.size(); ++k) {
             range.least.pixels[k] = std::min(range.least.pixels[k], (layers.*layer).pixels[k]);
@@ -92,8 +109,10 @@ double compare_around(const Around& range, const Image& value, std::string& wher
                     least -= beyond;
                     most += beyond;
                 }
+                // A ray that ends before or behind its own surface gathers about as much less or more.
+                const double apart = range.blocks ? depth_spread(range, x, y) : 0;
                 const double v = value.at(x, y)[c],
-                             slack = range.relative * static_cast<double>(most) + range.floor;
+                             slack = (range.relative + apart) * static_cast<double>(most) + range.floor;
                 const double excess = std::max(v - most, least - v) / slack;
                 if (excess <= worst) continue;
                 worst = std::isnan(excess) ? std::numeric_limits<double>::infinity() : excess;

@@ -13,6 +13,8 @@ struct Around {
     double relative = 0, floor = 0;  ///< slack
     bool blocks = false;             ///< of a low resolution
     Image least, most;               ///< of the plain frames, or their mean
+    Image depth = {};                ///< m; of a low resolution
+    int block = 1;                   ///< px, whose depths a low resolution takes for one another
 };
 /// Of a comparison of histories.
 constexpr int history_frames = 3;

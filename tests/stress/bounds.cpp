@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "around.h"
 #include "draw_scene.h"
@@ -14,8 +15,6 @@ namespace {
 // What is not compared. Limits are what the module's README says that a technique cannot do; a fault is to be
 // mended, and its rule to be deleted then.
 constexpr const char* limit_slices = "limit: froxel lights local media by slices and columns";
-constexpr const char* fault_heights =
-    "fault: analytic_fog and radial_shafts cut a ray by its densest height medium alone; several are off";
 constexpr const char* fault_uncovered =
     "fault: a pixel that no particle of global media covers gets none of their light, however much the closed form "
     "knows there to be";
@@ -30,6 +29,8 @@ constexpr const char* limit_columns = "limit: froxel interpolates the glow of a 
 constexpr const char* limit_sprites = "limit: sheets and particles have lamps and local media of one point each";
 constexpr const char* limit_particles = "limit: a particle has the phase function and the sun of its centre";
 constexpr const char* limit_fog = "limit: the fog of fixed functions takes the media as they are at the eye";
+constexpr const char* limit_edge = "limit: on the edge of a surface, within the rasteriser's grid";
+constexpr const char* limit_nearest_caster = "limit: a lamp closer than 2 cm to a surface shines through it";
 constexpr const char* limit_screen = "limit: radial_shafts sees shadows only of what is on screen";
 
 double largest(const dvec3& v) {
@@ -49,11 +50,6 @@ bool has_mixture(const Truth& truth) {
 bool is_anisotropic(const Truth& truth) {
     return std::ranges::any_of(truth.scene().media,
                                [](const Medium& m) { return m.anisotropy != 0 || m.rayleigh; });
-}
-
-long heights(const Truth& truth) {
-    return std::ranges::count_if(truth.scene().media,
-                                 [](const Medium& m) { return m.shape == Medium::Shape::height; });
 }
 
 /// Length of a march's segment at a distance along `length` metres, m.
@@ -113,8 +109,12 @@ double folds(const StressFrame& frame, const Truth& truth, const Truth::Pixel& p
     return most * segment_at(frame.options.volumetrics, marched(frame, pixel), end);
 }
 
+double depth_of(const reference::Media& media, const PixelRay& ray, double distance) {
+    return largest(media.optical_depth(ray.origin, ray.direction, 0, distance, true, 1e-4));
+}
+
 double local_depth(const Truth& truth, const PixelRay& ray, double distance) {
-    return largest(truth.local_media().optical_depth(ray.origin, ray.direction, 0, distance, true, 1e-4));
+    return depth_of(truth.local_media(), ray, distance);
 }
 
 /// Of the optical depth of local media as froxels hold it for their light: half a slice at each end, and linear
@@ -168,6 +168,27 @@ std::optional<double> node_error(const StressFrame& frame, const Truth& truth, c
     return error;
 }
 
+/// By how much height media change the sun over the three mean free paths that one sees, relative.
+double sun_change(const Truth& truth, const Truth::Pixel& pixel) {
+    const std::optional<std::size_t> sun = truth.scene().sun();
+    if (!sun) return 0;
+    const auto node = static_cast<std::size_t>(truth.scene().lights[*sun].node);
+    const double to_sun_y = glm::normalize(glm::dvec3(truth.scene().nodes[node].world[2])).y;
+    double sigma_t = 0, height_sigma_t = 0;
+    for (const Medium& medium : truth.scene().media) {
+        if (is_bounded(medium)) continue;
+        const double own = largest(dvec3(medium.sigma_s + medium.sigma_a));
+        const bool height = medium.shape == Medium::Shape::height;
+        const double density = height ? std::exp((medium.base - pixel.ray.origin.y) / medium.falloff) : 1;
+        sigma_t += own * density;
+        if (height) height_sigma_t += own * density;
+    }
+    if (height_sigma_t == 0) return 0;
+    const double seen = std::min(3 / sigma_t, pixel.open.distance);  // m
+    return std::expm1(
+        std::min(height_sigma_t * seen * std::abs(pixel.ray.direction.y) / std::max(to_sun_y, 0.01), 3.0));
+}
+
 bool passes_near_lamp(const StressFrame& frame, const Truth& truth, const Truth::Pixel& pixel) {
     const volumetrics::Settings& v = frame.options.volumetrics;
     for (const Light& light : truth.scene().lights) {
@@ -191,8 +212,8 @@ bool shows_lamp(const StressFrame& frame) {
     });
 }
 
-/// Of the optical depth of local media along a ray, relative, as the module's shaders state it: of soft discs
-/// flatter than 4 to 1, and of noise, which they know by columns of froxels, as measured.
+/// Of the optical depth of local media along a ray, relative to that without noise, as the module's shaders state
+/// it: of soft discs flatter than 4 to 1, and of noise, which they know by columns of froxels, as measured.
 double depth_error(const Truth& truth) {
     double error = 0.02;
     for (const Medium& medium : truth.scene().media) {
@@ -215,6 +236,36 @@ bool samples_lamps_coarsely(const StressFrame& frame) {
            });
 }
 
+/// Rays of the same pixel that lie apart by no more than a rasteriser tells end on surfaces of their own.
+bool sees_an_edge(const StressFrame& frame, const Truth& truth, const Truth::Pixel& pixel) {
+    constexpr double grid = 1.0 / 256;  // px
+    for (const glm::dvec2 aside : {glm::dvec2(grid, 0), {-grid, 0}, {0, grid}, {0, -grid}}) {
+        const double distance = truth.visible_distance(pixel_ray(frame.view, frame.size, pixel.place + aside));
+        if (std::isinf(distance) != std::isinf(pixel.open.distance) ||
+            std::abs(distance - pixel.open.distance) > 0.02 * pixel.open.distance)
+            return true;
+    }
+    return false;
+}
+
+/// What casts a lamp's shadow begins 2 cm from it (engine/render/shadow_tiles.cpp).
+bool lamp_touches_surface(const Truth& truth) {
+    constexpr double reach = 0.02 * std::numbers::sqrt3;  // m; that of the corners of a cube, too
+    for (const Light& light : truth.scene().lights) {
+        if (light.type == LightType::sun || light.intensity == glm::vec3(0) || !light.shadow) continue;
+        const dvec3 place(truth.scene().nodes[static_cast<std::size_t>(light.node)].world[3]);
+        for (int i = 0; i < 27; ++i) {
+            if (i == 13) continue;  // the middle
+            const dvec3 direction = glm::normalize(dvec3(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1));
+            // Surfaces are seen from their front alone.
+            if (truth.visible_distance({place, direction, 0, 1}) < reach ||
+                truth.visible_distance({place + reach * direction, -direction, 0, 1}) < reach)
+                return true;
+        }
+    }
+    return false;
+}
+
 Bound left_out(const char* rule) {
     return {.rule = rule};
 }
@@ -223,10 +274,11 @@ Bound left_out(const char* rule) {
 
 Bound transmittance_bound(const StressFrame& frame, const Truth& truth, const Truth::Pixel& pixel) {
     constexpr double half = 1e-3;  // rounding, and Beer-Lambert as the module's README states it
-    const double local = local_depth(truth, pixel.ray, pixel.open.distance);
-    if (local == 0) return {half, half};
+    if (sees_an_edge(frame, truth, pixel)) return left_out(limit_edge);
+    const double smooth = depth_of(truth.smooth_media(), pixel.ray, pixel.open.distance);
+    if (smooth == 0) return {half, half};
     const std::string technique = frame.options.volumetrics.technique;
-    if (technique != "reference") return {half + depth_error(truth) * local, half};
+    if (technique != "reference") return {half + depth_error(truth) * smooth, half};
     return {2 * half, half};
 }
 
@@ -235,6 +287,8 @@ Bound scattering_bound(const StressFrame& frame, const Truth& truth, const Truth
     const std::string technique = frame.options.volumetrics.technique;
     const bool lamps = has_lamp(truth), mixture = has_mixture(truth);
     const double local = local_depth(truth, pixel.ray, pixel.open.distance);
+    if (sees_an_edge(frame, truth, pixel)) return left_out(limit_edge);
+    if (truth.has_shadows() && lamp_touches_surface(truth)) return left_out(limit_nearest_caster);
     Bound bound{4e-3, 2e-3};
     if (frame.options.render.ambient > 0) bound.relative += 0.02;
     const bool automatic = technique == "auto";
@@ -259,14 +313,13 @@ Bound scattering_bound(const StressFrame& frame, const Truth& truth, const Truth
         if (v.particles.size < least_particle_size) return left_out(fault_uncovered);
     } else if (technique == "billboards") {
         if (lamps || local > 0) return left_out(limit_sprites);
-        bound.relative += 0.3;  // measured: 0.18, of eight sheets or more
+        bound.relative += 0.3 + sun_change(truth, pixel);  // measured: 0.18, of eight sheets or more
     } else if (technique == "analytic_fog" || technique == "radial_shafts") {
         const bool screen = technique == "radial_shafts";
         if (screen && (frame.world != World::nothing || v.radial_shafts.unseen < 1)) return left_out(limit_screen);
         if (!screen && v.analytic_fog.mode != volumetrics::FogMode::height && !truth.is_homogeneous())
             return left_out(limit_fog);
-        if (heights(truth) > 1) return left_out(fault_heights);
-        if (mixture) bound.relative += 0.07;
+        if (mixture) bound.relative += 0.01;
     }
     if (local > 0 && froxel) {
         const double quantised = quantisation(frame, truth, pixel);

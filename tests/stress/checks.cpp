@@ -33,6 +33,10 @@ Layers read_layers(const Renderer& renderer, const Scene& scene) {
             renderer.read_layer("depth")};
 }
 
+float most_light(const StressFrame& frame) {
+    return frame.options.volumetrics.technique == "reference" ? std::numeric_limits<float>::max() : half_max;
+}
+
 void check_values(const Layers& layers, float most, Findings& findings) {
     check_layer("scattering", layers.scattering, most, findings);
     check_layer("transmittance", layers.transmittance, 1, findings);

@@ -18,6 +18,8 @@ struct Layers {
 using Findings = std::vector<std::string>;
 
 constexpr float half_max = 65504;
+/// Most light that the layers hold: the technique reference keeps its own in single precision.
+[[nodiscard]] float most_light(const StressFrame& frame);
 
 /// All finite, none negative, transmittance at most 1, color at most 65504, scattering at most `most`; at most one
 /// finding a layer.

@@ -44,9 +44,7 @@ Findings Run::check(int number) {
     try {
         if (frame.cut) worlds_[frame.world].renderer->invalidate_history();
         const Layers layers = render(frame, frame.world);
-        // The technique reference keeps its layers in single precision.
-        const bool single = frame.options.volumetrics.technique == "reference";
-        check_values(layers, single ? std::numeric_limits<float>::max() : half_max, findings);
+        check_values(layers, most_light(frame), findings);
         if (frame.comparable) compare_.check(frame, Random{seed_, 4, static_cast<std::uint64_t>(number)}, findings);
         if (number % sequence_length == 1) compare_.check_doubled(frame, findings);
         const volumetrics::Settings& v = frame.options.volumetrics;

@@ -23,6 +23,11 @@ std::vector<Medium> local_of(std::vector<Medium> media) {
     return media;
 }
 
+std::vector<Medium> without_noise(std::vector<Medium> media) {
+    for (Medium& medium : media) medium.noise_amount = 0;
+    return media;
+}
+
 bool casts_shadows(const Scene& scene) {
     return std::ranges::any_of(scene.lights,
                                [](const Light& l) { return l.shadow && l.intensity != glm::vec3(0); });
@@ -43,7 +48,8 @@ Truth::Truth(const StressFrame& frame, Scene scene)
     : frame_(frame),
       scene_(as_known(std::move(scene), knows(frame.options.volumetrics.technique))),
       media_(scene_.media),
-      local_(local_of(scene_.media)) {
+      local_(local_of(scene_.media)),
+      smooth_(without_noise(local_of(scene_.media))) {
     const auto& chosen = frame.options.volumetrics;
     reference::Settings settings{.light_transmittance = chosen.light.transmittance,
                                  .phase = {.kind = static_cast<reference::ParticlePhase::Kind>(chosen.light.phase),
@@ -94,8 +100,11 @@ Truth::Pixel Truth::trace(glm::ivec2 place) const {
 
 dvec3 Truth::transmittance(glm::ivec2 place) const {
     const PixelRay ray = pixel_ray(frame_.view, frame_.size, place);
-    const double distance = open_->visible_distance(ray.origin, ray.direction, ray.begin);
-    return glm::exp(-media_.optical_depth(ray.origin, ray.direction, 0, distance, true, 1e-3));
+    return glm::exp(-media_.optical_depth(ray.origin, ray.direction, 0, visible_distance(ray), true, 1e-3));
+}
+
+double Truth::visible_distance(const PixelRay& ray) const {
+    return open_->visible_distance(ray.origin, ray.direction, ray.begin);
 }
 
 dvec3 Truth::shadowed(const PixelRay& ray) const {

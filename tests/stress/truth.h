@@ -34,7 +34,11 @@ class Truth {
     /// Scattering, with shadows.
     [[nodiscard]] dvec3 shadowed(const PixelRay& ray) const;
     [[nodiscard]] const reference::Media& local_media() const { return local_; }
+    /// The same without their noise.
+    [[nodiscard]] const reference::Media& smooth_media() const { return smooth_; }
     [[nodiscard]] const reference::Media& media() const { return media_; }
+    /// How far one sees along a ray, m.
+    [[nodiscard]] double visible_distance(const PixelRay& ray) const;
     [[nodiscard]] bool is_homogeneous() const;
     [[nodiscard]] const Scene& scene() const { return scene_; }
 
@@ -44,7 +48,7 @@ class Truth {
 
     const StressFrame& frame_;
     Scene scene_;
-    reference::Media media_, local_;
+    reference::Media media_, local_, smooth_;
     std::unique_ptr<reference::Reference> open_, shadowed_;
 };
 

@@ -6,13 +6,13 @@
 // et al. 2006), by the mean density over it, and by the noise at a point of it. Soft against depth: the slab ends at the surface, so a sheet has the
 // share of its medium that lies in front. Faded near the eye: density falls to 0 over the last `fade` metres.
 //
-// Sampled at one point of each sheet: light, and the noise of local media. Where that is differs from pixel to pixel
-// (noise_offset), so that filters and means over frames find the mean over the sheet. Optical depth and fade of global media
-// have no noise.
+// Sampled at one point of each sheet: the noise of local media, and light, the latter where the eye sees the sheet (equal shares
+// of what is seen of it lie before equal offsets). Where that is differs from pixel to pixel (noise_offset), so that filters
+// and means over frames find the mean over the sheet. Optical depth and fade of global media have no noise.
 //
 // What it cannot do: with noise none the point is the sheet's middle for all pixels, so that the edge of a shadow or of a
 // lamp's glow is a step from sheet to sheet that moves with the camera, and a lamp between two sheets is too dim or too
-// bright. All points of a sheet count alike, whatever of the sheet is before them; slabs that overlap are blended as if the
+// bright. Slabs that overlap are blended as if the
 // one with the farther middle lay behind; no medium at the eye.
 #include "shaders/interface/shadows.glsl"
 #include "shaders/shared/sprites.h"
@@ -65,13 +65,13 @@ Medium sheet_medium(Ray ray, vec2 part, vec3 point) {
 }
 
 March sheet(Ray ray, vec2 part, float offset) {
-    float t = mix(part.x, part.y, offset);
-    vec3 point = ray.origin + ray.direction * t;
-    Medium m = sheet_medium(ray, part, point);
+    Medium m = sheet_medium(ray, part, ray.origin + ray.direction * mix(part.x, part.y, offset));
     float share = fade > 0.0 ? clamp(0.5 * (part.x + part.y) / fade, 0.0, 1.0) : 1.0;
     m.optical_depth *= share;
     Optics optics = medium_optics(m, part.y - part.x);
     Extinction path = share * optics.effective_length;
+    float t = mix(part.x, part.y, equal_transmittance(offset, average(optics.depth)));
+    vec3 point = ray.origin + ray.direction * t;
 
     vec3 radiance = (m.sigma_s * ambient + m.emission) * path;
 #if HAS_SUN

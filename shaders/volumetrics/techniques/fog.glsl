@@ -59,7 +59,8 @@ float visible_end(Ray ray, float surface) {
 }
 
 // A mixture is cut at first ((1 + end / first)^(k / n) - 1), k = 1 .. n: densely at the eye, and evenly within `first`, on
-// which none of its media changes by more than e^2. Behind `end` nothing shows, or no medium but the homogeneous is left.
+// which none of its media changes by more than e^2, or at the eye is more than THICK mean free paths of its densest channel.
+// Behind `end` nothing shows, or no medium but the homogeneous is left.
 struct Cuts {
     bool needed;
     float first;  // m
@@ -70,6 +71,7 @@ Cuts find_cuts(Ray ray, float end) {
     Cuts cuts = Cuts(false, end, end);
 #if HEIGHT_MEDIA
     const float OPAQUE = 16.0;
+    const float THICK = 4.0;
     vec3 homogeneous = volumetrics.homogeneous_sigma_t.rgb + volumetrics.homogeneous_emission.rgb;
     cuts.needed = HEIGHT_COUNT > 1u || (HEIGHT_COUNT == 1u && homogeneous != vec3(0.0));
     float thickest = 0.0;
@@ -79,12 +81,18 @@ Cuts find_cuts(Ray ray, float end) {
         HeightMedium medium = volumetrics.height[i];
         float scale = medium.sigma_t_falloff.w / max(abs(ray.direction.y), 1.0e-6);  // m, on which it changes by e
         cuts.first = min(cuts.first, 2.0 * scale);
+        float sigma_t = largest(to_extinction(medium.sigma_t_falloff.rgb)) *
+                        height_density(ray.origin.y, medium.sigma_s_base.w, medium.sigma_t_falloff.w);
+        cuts.first = min(cuts.first, THICK / max(sigma_t, 1.0e-30));
         thickest = max(thickest, scale);
-        if (ray.direction.y >= 0.0) continue;
-        // Its depth is sigma scale (exp(t / scale) - 1), sigma at the eye; that may be far below what a float can hold.
+        // Its depth is sigma scale (exp(t / scale) - 1) where the ray falls, sigma scale (1 - exp(-t / scale)) where it
+        // rises, sigma at the eye; x = log(OPAQUE / (sigma scale)), for sigma may be far below what a float can hold.
         float x = log(OPAQUE / max(smallest(to_extinction(medium.sigma_t_falloff.rgb)) * scale, 1.0e-30)) +
                   (ray.origin.y - medium.sigma_s_base.w) / medium.sigma_t_falloff.w;
-        cuts.end = min(cuts.end, scale * (max(x, 0.0) + log(1.0 + exp(-abs(x)))));
+        if (ray.direction.y < 0.0)
+            cuts.end = min(cuts.end, scale * (max(x, 0.0) + log(1.0 + exp(-abs(x)))));
+        else if (x < 0.0)
+            cuts.end = min(cuts.end, scale * -log(max(1.0 - exp(x), 1.0e-6)));
     }
     if (ray.direction.y >= 0.0) cuts.end = min(cuts.end, OPAQUE * thickest);
 #endif

@@ -232,6 +232,27 @@ TEST_F(AnalyticFog, MixtureOfMediaAgreesWithQuadrature) {
     }
 }
 
+// Green ends forty times nearer than blue.
+TEST_F(AnalyticFog, EachChannelOfAColouredMixtureIsAsInItsGreyOne) {
+    host.size = {3, 7};
+    host.vertical_fov = 1;
+    host.view_depth = [](int x, int) { return x == 0 ? 20.0F : 1e9F; };
+    const glm::vec3 coloured(0.03F, 0.17F, 0.004F), shines(0.3F, 0.5F, 1);
+    const auto render = [&](const glm::vec3& sigma_a, const glm::vec3& emission) {
+        host.global = {{.sigma_a = glm::vec3(0.003F), .emission = emission},
+                       {.sigma_a = sigma_a, .height = true, .base = 2, .falloff = 19}};
+        return host.render(settings()).scattering;
+    };
+    const Image all = render(coloured, shines);
+    for (int c = 0; c < 3; ++c) {
+        const Image grey = render(glm::vec3(coloured[c]), glm::vec3(shines[c]));
+        for (int y = 0; y < 7; ++y)
+            for (int x = 0; x < 3; ++x)
+                EXPECT_LT(relative(all.at(x, y)[c], grey.at(x, y)[c]), 0.01)
+                    << "channel " << c << " of " << x << ", " << y;
+    }
+}
+
 TEST_F(AnalyticFog, WhiteFurnaceKeepsItsEnergy) {
     // A medium that absorbs nothing, in light that comes from everywhere alike: what is lost is scattered in.
     host.ambient = glm::vec3(8);

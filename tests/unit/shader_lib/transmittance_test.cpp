@@ -84,7 +84,7 @@ TEST(Transmittance, HeightDensityMatchesQuadrature) {
         }
         const auto direction_y = static_cast<float>(dy);
         const double steepest = std::max(-(origin_y - base), -(origin_y + direction_y * length - base)) / falloff;
-        if (steepest > 55.0) {
+        if (steepest > 0.9 * glsl::HEIGHT_MAX_EXPONENT) {
             continue;
         }
         const auto density = [&](double t) {
@@ -157,6 +157,12 @@ TEST(Transmittance, NothingOverflows) {
             }
         }
     }
+}
+
+// Light is in proportion to the optical depth only where that is not cut off (global_media.glsl: at 1e30).
+TEST(Transmittance, TheDensestHeightMediumKeepsItsOpticalDepth) {
+    for (float dy : {-1.0f, -3e-3f, 0.0f})
+        EXPECT_LT(1e3f * glsl::height_density_length(-1e4f, dy, 1e9f, 0.0f, 1.0f), 1e30f) << dy;
 }
 
 }  // namespace
