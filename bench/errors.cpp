@@ -85,12 +85,12 @@ double dim_relative_rmse(const Image& image, const Image& reference, double part
     return relative_rmse(kept(image, dim), kept(reference, dim));
 }
 
-Errors measure_errors(Session& session, const View& view, const Point& point, const GroundTruth& truth,
-                      bool display) {
+Comparison measure_errors(Session& session, const View& view, const Point& point, const GroundTruth& truth,
+                          bool display) {
     start(session, view, point);
     std::vector<std::string> layers{"scattering", "depth"};
     if (display) layers.insert(layers.end(), {"transmittance", "color"});
-    const std::vector<Image> drawn = draw_layers(session, view, point.place->time, layers);
+    std::vector<Image> drawn = draw_layers(session, view, point.place->time, layers);
     const std::vector<bool> same = same_surface(drawn[1], truth.depth);
     const Image scattering = kept(drawn[0], same), reference = kept(truth.scattering, same);
     Errors errors;
@@ -102,13 +102,13 @@ Errors measure_errors(Session& session, const View& view, const Point& point, co
     const MaskedError parts = masked_relative_rmse(scattering, reference, kept(band, same));
     errors.edge = parts.inside;
     errors.rest = parts.outside;
-    if (!display) return errors;
+    if (!display) return {errors, std::move(drawn[0]), same};
     errors.transmittance = compare_images(kept(drawn[2], same), kept(truth.transmittance, same)).rmse;
     errors.invalid += count_invalid(drawn[2], 1.0f);
     const bool finite = std::ranges::all_of(drawn[3].pixels, [](float v) { return std::isfinite(v); });
     errors.flip =
         finite ? mean_value(hdr_flip_error(drawn[3], truth.color)) : std::numeric_limits<double>::infinity();
-    return errors;
+    return {errors, std::move(drawn[0]), same};
 }
 
 Motion measure_motion(Session& session, const View& view, const Point& point) {

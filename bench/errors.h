@@ -5,10 +5,16 @@
 
 namespace tyndall::bench {
 
+/// What was compared: errors, the scattering layer as drawn, and the pixels that count (same_surface()).
+struct Comparison {
+    Errors errors;
+    Image scattering;
+    std::vector<bool> same;
+};
 /// Draws a point's configuration, which the session is set to, and compares it. `display`: all errors, else that of
 /// the scattering layer only. Starts with no history and lets it settle.
-[[nodiscard]] Errors measure_errors(Session& session, const View& view, const Point& point,
-                                    const GroundTruth& truth, bool display);
+[[nodiscard]] Comparison measure_errors(Session& session, const View& view, const Point& point,
+                                        const GroundTruth& truth, bool display);
 
 /// Pixels in which both see the same surface: view depths (0: the sky) that agree to 1%. A rasteriser snaps corners
 /// to a fraction of a pixel, so that a silhouette may fall on the other side of a pixel's centre; what the medium

@@ -3,7 +3,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "bench/pictures.h"
 #include "bench/results.h"
+#include "bench/techniques.h"
 
 namespace tyndall::bench {
 
@@ -98,9 +100,21 @@ json results_json(const Suite& suite, const std::vector<Row>& rows, const json& 
         json entry = json::object();
         for (const auto& [name, value] : fields(suite, row)) entry[name] = value;
         for (const auto& [pass, ms] : row.passes) entry["passes_ms"][pass] = ms;
+        entry["label"] = row.point->configuration.label;
+        if (row.compared()) {
+            const PictureNames names = picture_names(row.point->key(), row.point->subject());
+            entry["picture"] = names.light;
+            entry["error_picture"] = names.error;
+            entry["truth_picture"] = names.truth;
+        }
         list.push_back(std::move(entry));
     }
-    return {{"conditions", conditions}, {"rows", list}};
+    json looks = json::object();
+    for (const Row& row : rows) {
+        const Family& f = family(row.point->configuration.family);
+        looks[f.name] = {{"color", f.color}, {"marker", static_cast<int>(f.marker)}};
+    }
+    return {{"title", suite.title}, {"conditions", conditions}, {"families", looks}, {"rows", list}};
 }
 
 }  // namespace tyndall::bench

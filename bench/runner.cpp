@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "bench/errors.h"
+#include "bench/pictures.h"
 #include "engine/core/files.h"
 
 namespace tyndall::bench {
@@ -156,7 +157,10 @@ void Runner::measure(const Point& point, bool motion) {
         view = show(point);
     }
     if (errors) {
-        store_.add_errors(key, measure_errors(*session_, view, point, truth_, suite_.display));
+        const Comparison found = measure_errors(*session_, view, point, truth_, suite_.display);
+        write_pictures(options_.out, picture_names(key, point.subject()), found.scattering, truth_.scattering,
+                       found.same);
+        store_.add_errors(key, found.errors);
         warm_.insert(key);
     }
     if (motion) store_.add_motion(key, measure_motion(*session_, view, point));

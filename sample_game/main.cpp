@@ -15,11 +15,13 @@ int main(int argc, char** argv) {
         tyndall::add_compare_command(app);
         tyndall::add_flythrough_command(app);
         tyndall::add_bench_command(app);
+        tyndall::add_report_command(app);
         tyndall::add_list_command(app);
         if (argc > 1 && argv[1][0] != '-' &&
             app.get_subcommands([&](const CLI::App* c) { return c->get_name() == argv[1]; }).empty())
             throw tyndall::UsageError(fmt::format(
-                "no command '{}': expected play, render, reference, compare, flythrough, bench or list", argv[1]));
+                "no command '{}': expected play, render, reference, compare, flythrough, bench, report or list",
+                argv[1]));
         app.parse(argc, argv);
         return 0;
     } catch (const CLI::Success& e) {

@@ -100,15 +100,17 @@ Image read_image(const fs::path& path, int channels) {
 
 std::string encode_image(const fs::path& path, const Image& image) {
     const std::string extension = path.extension().string();
-    const bool png = extension == ".png";
-    if (!png && extension != ".exr") fail(path.string(), "write", "a name that ends in .png or .exr expected");
+    const bool png = extension == ".png", whole = png || extension == ".jpg";
+    if (!whole && extension != ".exr")
+        fail(path.string(), "write", "a name that ends in .png, .jpg or .exr expected");
 
     OIIO::ImageSpec spec(image.size.x, image.size.y, image.channels,
-                         png ? OIIO::TypeDesc::UINT8 : OIIO::TypeDesc::FLOAT);
+                         whole ? OIIO::TypeDesc::UINT8 : OIIO::TypeDesc::FLOAT);
     std::vector<std::uint8_t> quantised;
     const void* data = image.pixels.data();
-    if (png) {
-        spec["oiio:UnassociatedAlpha"] = 1;
+    if (png) spec["oiio:UnassociatedAlpha"] = 1;
+    if (extension == ".jpg") spec["Compression"] = "jpeg:88";
+    if (whole) {
         quantised.resize(image.pixels.size());
         std::ranges::transform(image.pixels, quantised.begin(), [](float v) {
             return static_cast<std::uint8_t>(v > 0 ? std::lround(std::min(v, 1.0f) * 255.0f) : 0);

@@ -28,7 +28,7 @@ struct Image {
 [[nodiscard]] Image read_image(const std::filesystem::path& path, int channels = 0);
 /// Decodes a picture that lies in memory (an image embedded in a glTF buffer). `name` is for the error message.
 [[nodiscard]] Image decode_image(std::span<const std::uint8_t> bytes, const std::string& name, int channels = 4);
-/// Writes .png (8 bit, values clamped to 0..1 and rounded, no transfer curve) or .exr (32-bit float), by
+/// Writes .png or .jpg (8 bit, values clamped to 0..1 and rounded, no transfer curve) or .exr (32-bit float), by
 /// extension, atomically. Throws Error naming the path (unknown extension, unwritable).
 void write_image(const std::filesystem::path& path, const Image& image);
 

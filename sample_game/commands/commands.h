@@ -13,5 +13,6 @@ void add_list_command(CLI::App& app);
 void add_play_command(CLI::App& app);
 void add_reference_command(CLI::App& app);
 void add_render_command(CLI::App& app);
+void add_report_command(CLI::App& app);
 
 }  // namespace tyndall

@@ -16,8 +16,9 @@ struct Billboard {
 
 struct ParticleSprite {
     vec4 center_radius;  // xyz from the eye, along the axes of the world, w radius (m); 0: not drawn
-    vec4 light;          // rgb what it sends to the eye, radiance m^2; a what the sum of it is known for, see particles_resolve.frag
-    vec4 local;          // x 1: of a local medium, 0: of the global ones
+    vec4 light;          // rgb what it sends to the eye, radiance m^2; a mean of `certain`
+    vec4 certain;        // rgb what the sum of it over a pixel's particles is known for, see particles_resolve.frag; a 1: of a
+                         // local medium, 0: of the global ones
 };
 
 SHARED_END

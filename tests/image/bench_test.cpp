@@ -1,4 +1,5 @@
 // `tyndall bench` as a command, on its smallest suite.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -66,6 +67,19 @@ TEST_F(Bench, SmokeSuiteWritesTablesPlotsAndGoesOn) {
         EXPECT_THAT(read_text(folder_ / "plots" / (std::string(plot) + ".svg")), HasSubstr("</svg>")) << plot;
     EXPECT_THAT(read_text(folder_ / "summary.md"), HasSubstr("| budget (ms) |"));
 
+    // One page of it, with all that it shows.
+    const std::string page_path = (folder_ / "page.html").string();
+    const CommandResult report = run_tyndall({"report", out(), "-o", page_path});
+    ASSERT_EQ(report.exit_code, 0) << report.err;
+    const std::string page = read_text(page_path);
+    for (const json& row : all["rows"])
+        for (const char* kind : {"picture", "error_picture", "truth_picture"})
+            EXPECT_THAT(
+                page, HasSubstr(fmt::format("\"{}\":\"data:image/jpeg;base64,/9j/", row[kind].get<std::string>())));
+    EXPECT_EQ(page.find("src=\"http"), std::string::npos) << "it needs the network";
+    for (const char* mark : {"/* page.css */", "/* chart.js */", "/* results */", "/* page.js */"})
+        EXPECT_EQ(page.find(mark), std::string::npos) << mark << " was not filled in";
+
     // An interruption that cost the last three measurements: only they are made again.
     const std::filesystem::path log = folder_ / "measurements.jsonl";
     const std::string before = read_text(log);
@@ -81,6 +95,17 @@ TEST_F(Bench, SmokeSuiteWritesTablesPlotsAndGoesOn) {
     const CommandResult other = run({"--suite", "smoke", "--out", out(), "--reference", "cpu"});
     EXPECT_EQ(other.exit_code, 2);
     EXPECT_THAT(other.err, HasSubstr("reference"));
+}
+
+TEST_F(Bench, ReportOfAFolderWithoutResultsFails) {
+    const CommandResult none = run_tyndall({"report", out(), "-o", (folder_ / "page.html").string()});
+    EXPECT_EQ(none.exit_code, 1);
+    EXPECT_THAT(none.err, HasSubstr("results.json"));
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "page.html"));
+    write_text(folder_ / "results.json", "{\"rows\": 3}");
+    const CommandResult odd = run_tyndall({"report", out()});
+    EXPECT_EQ(odd.exit_code, 1);
+    EXPECT_THAT(odd.err, HasSubstr("results of a suite of points expected"));
 }
 
 TEST_F(Bench, ConvergenceOfOneSceneFallsWithSteps) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "draw_scene.h"
 #include "moderate.h"
@@ -33,15 +34,18 @@ int radius_of(const StressFrame& frame) {
 }
 
 /// How far depths within a block's reach of a pixel lie apart, relative to its own; over a silhouette 0: pixels
-/// around see the one and the other.
-double depth_spread(const Around& range, int x, int y) {
+/// around see the one and the other. Before a horizon's sky: none.
+std::optional<double> depth_spread(const Around& range, int x, int y) {
     constexpr double silhouette = 0.1;
     const glm::ivec2 last = range.depth.size - 1;
-    const float here = range.depth.at(x, y)[0];
-    double spread = 0;
-    for (int j = std::max(y - range.block + 1, 0); here > 0 && j <= std::min(y + range.block - 1, last.y); ++j)
-        for (int i = std::max(x - range.block + 1, 0); i <= std::min(x + range.block - 1, last.x); ++i)
-            spread = std::max(spread, std::abs(double(range.depth.at(i, j)[0]) / here - 1));
+    float least = range.depth.at(x, y)[0], most = least;
+    for (int j = std::max(y - range.block + 1, 0); j <= std::min(y + range.block - 1, last.y); ++j)
+        for (int i = std::max(x - range.block + 1, 0); i <= std::min(x + range.block - 1, last.x); ++i) {
+            least = std::min(least, range.depth.at(i, j)[0]);
+            most = std::max(most, range.depth.at(i, j)[0]);
+        }
+    if (range.horizon && least == 0 && most > 0) return {};
+    const double spread = least > 0 ? double(most) / least - 1 : 0;
     return spread < silhouette ? spread : 0;
 }
 
@@ -80,6 +84,10 @@ Around around(const StressFrame& frame, const std::vector<Layers>& plain, Image 
                  .least = first,
                  .most = first};
     if (range.blocks) {
+        // Columns let light through silhouettes, the less of it the finer they are.
+        if (layer == &Layers::scattering && holds_froxels(frame.options.volumetrics.technique)) range.floor = 5e-4;
+        range.horizon =
+            std::ranges::any_of(frame.media, [](const Medium& m) { return m.shape == Medium::Shape::height; });
         range.depth = plain.front().depth;
         range.block = frame.options.volumetrics.resolution.size == volumetrics::Resolution::half ? 2 : 4;
     }
@@ -110,9 +118,10 @@ double compare_around(const Around& range, const Image& value, std::string& wher
                     most += beyond;
                 }
                 // A ray that ends before or behind its own surface gathers about as much less or more.
-                const double apart = range.blocks ? depth_spread(range, x, y) : 0;
+                const std::optional<double> apart = range.blocks ? depth_spread(range, x, y) : 0;
+                if (!apart) continue;
                 const double v = value.at(x, y)[c],
-                             slack = (range.relative + apart) * static_cast<double>(most) + range.floor;
+                             slack = (range.relative + *apart) * static_cast<double>(most) + range.floor;
                 const double excess = std::max(v - most, least - v) / slack;
                 if (excess <= worst) continue;
                 worst = std::isnan(excess) ? std::numeric_limits<double>::infinity() : excess;

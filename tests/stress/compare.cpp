@@ -23,8 +23,7 @@ constexpr const char* limit_white =
     "limit: light 16 stops above white is cut off before filters, means and up-sampling take their share of it";
 constexpr const char* limit_sky =
     "limit: a sky 16 stops above white is cut off where it is stored, so that its light cannot be doubled";
-constexpr const char* fault_density =
-    "fault: local emission and extinction beyond 65504 are cut off in froxels, so that their ratio is lost";
+constexpr const char* limit_emission = "limit: local emission of 65504 a metre is cut off in froxels";
 constexpr const char* dark = "dark: no light, so that it is certain that there is none and nothing else";
 constexpr int pixels_per_frame = 4;
 constexpr double least_light = 1e-5;  // of half floats
@@ -35,15 +34,15 @@ double mean_of(const Image& image) {
     return sum / static_cast<double>(image.pixels.size());
 }
 
-/// Local media somewhere emit or absorb more than a half float holds, or close to it.
+/// Local media somewhere shine more than a half float holds, or close to it, with what they absorb held there.
 bool exceeds_froxels(const Medium& medium, float light_unit) {
     constexpr float noise = 2;
-    const glm::vec3 sigma_t = medium.sigma_s + medium.sigma_a;
+    const glm::vec3 sigma_t = medium.sigma_s + medium.sigma_a, emission = 2.0f / light_unit * medium.emission;
     const float lowest = medium.center.y - glm::length(medium.half_extent);
-    const float density = medium.height_profile ? std::exp((medium.base - lowest) / medium.falloff) : 1;
-    const glm::vec3 emission = 2.0f / light_unit * medium.emission;
-    const float most = std::max({sigma_t.x, sigma_t.y, sigma_t.z, emission.x, emission.y, emission.z});
-    return is_bounded(medium) && most > 0 && noise * most * density > 0.9f * half_max;
+    const float density = noise * (medium.height_profile ? std::exp((medium.base - lowest) / medium.falloff) : 1);
+    const float densest = std::max({sigma_t.x, sigma_t.y, sigma_t.z}) * density,
+                brightest = std::max({emission.x, emission.y, emission.z}) * density;
+    return is_bounded(medium) && brightest / std::max(densest / half_max, 1.0f) > 0.9f * half_max;
 }
 
 /// The sky is brightest where the sun stands, or over the horizon below which it stands.
@@ -229,7 +228,7 @@ void Compare::check(const StressFrame& frame, Random random, Findings& findings)
 void Compare::check_doubled(const StressFrame& frame, Findings& findings) {
     Scene scene = pose_scene(worlds_[frame.world].scene, frame);
     if (std::ranges::any_of(scene.media, [&](const Medium& m) { return exceeds_froxels(m, scene.light_unit()); })) {
-        tally.leave_out(fault_density, frame.size.x * frame.size.y);
+        tally.leave_out(limit_emission, frame.size.x * frame.size.y);
         return;
     }
     const Layers once = draw(frame, scene, frame.options, 1).back();

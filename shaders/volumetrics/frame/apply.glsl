@@ -93,6 +93,18 @@ Ends interpolate(vec2 uv, int slice, float view_depth, float growth, bool opaque
         add_column(ivec3(column, slice), weight, beyond, growth, ends);
         total += weight;
     }
+    // A pixel of a lower resolution may look as deep as any of its block: then the columns of the block that reach so far are
+    // asked instead.
+    bool lower = opaque && total <= 0.0 && volumetrics.target != volumetrics.viewport;
+    ivec2 first = ivec2(max(p - 0.5 * volumetrics.target.zw * vec2(size) + 0.5, 0.0));
+    ivec2 last = min(ivec2(p + 0.5 * volumetrics.target.zw * vec2(size) + 0.5), size - 1);
+    for (ivec2 column = first; lower && column.y <= last.y; column = ++column.x > last.x ? ivec2(first.x, column.y + 1) : column) {
+        float weight = depth_weight(texelFetch(farthest_view_depth, column, 0).r, view_depth);
+        count_work(WORK_TEXTURE_FETCHES, 1u);
+        if (weight <= 0.0) continue;
+        add_column(ivec3(column, slice), weight, 0.0, growth, ends);
+        total += weight;
+    }
     float scale = 1.0 / max(total, 1.0e-6);
     return Ends(ends.radiance_begin * scale, ends.radiance_end * scale, ends.local_begin * scale,
                 ends.local_end * scale);

@@ -7,6 +7,7 @@
 #include "shaders/volumetrics/light/ambient.glsl"
 #include "shaders/volumetrics/media/extinction.glsl"
 #include "shaders/volumetrics/light/light_transmittance.glsl"
+#include "shaders/volumetrics/light/mixture.glsl"
 #include "shaders/volumetrics/frame/ray.glsl"
 #include "shaders/volumetrics/media/scattering.glsl"
 
@@ -88,12 +89,6 @@ void add_global(Ray ray, float begin, float end, Ambient ambient, inout Extincti
     march.transmittance *= optics.transmittance;
 }
 
-// Where a height medium and a thin haze share an endless tail, the one ends long before the other: each is closed form,
-// their product is not. Parts of growing length make of 6% (an endless sky) 0.2%.
-const int TAIL_PARTS = 5;
-const float TAIL_GROWTH = 5.0;
-const float TAIL_FIRST_PART = 4.0 / 3124.0;  // (growth - 1) / (growth^parts - 1)
-
 #if HAS_SUN
 struct FurtherSun {
     vec3 to_sun;
@@ -123,37 +118,27 @@ vec3 further_suns(Ray ray, float begin, float end) {
 }
 #endif
 
-void add_tail_part(Ray ray, float begin, float end, Ambient ambient, inout Extinction sun_front, inout March march) {
-#if HAS_SUN
-    march.radiance += march.transmittance * further_suns(ray, begin, end);
-#endif
-    add_global(ray, begin, end, ambient, sun_front, march);
-}
+const int TAIL_PARTS = 6;
 
-// Global media between the end of the march and the surface, or without end where there is none.
+// Global media between the end of the march and the surface, or without end where there is none. A mixture is cut as mixture.glsl
+// says, what lies behind the cuts is one part more.
 void march_tail(Ray ray, float begin, float end, bool endless, Ambient ambient, Extinction sun_front, inout March march) {
-    // What lies behind an optical depth of 16 cannot be seen: source and sun are taken from what lies before.
-    Extinction sigma_t = to_extinction(volumetrics.homogeneous_sigma_t.rgb);
-    float visible_end = min(end, begin + 16.0 / max(largest(sigma_t), 1.0e-30));
     Extinction before = march.transmittance;
-#if HEIGHT_MEDIA
-    float part_begin = begin;
-    float part_length = (visible_end - begin) * TAIL_FIRST_PART;
-    int parts = HEIGHT_COUNT == 0u ? 1 : TAIL_PARTS;
-    for (int i = 1; i < parts; ++i) {
-        add_tail_part(ray, part_begin, part_begin + part_length, ambient, sun_front, march);
-        part_begin += part_length;
-        part_length *= TAIL_GROWTH;
+    float y = ray.origin.y + ray.direction.y * begin;
+    float seen = visible_end(y, ray.direction.y, end - begin);
+    Cuts cuts = find_cuts(y, ray.direction.y, seen);
+    float growth = pow(1.0 + cuts.end / cuts.first, 1.0 / float(TAIL_PARTS));
+    float part_length = cuts.first * (growth - 1.0);
+    float a = 0.0;
+    for (int k = cuts.needed ? 0 : TAIL_PARTS; k <= TAIL_PARTS; ++k) {
+        float b = k == TAIL_PARTS ? seen : min(a + part_length, cuts.end);
+#if HAS_SUN
+        march.radiance += march.transmittance * further_suns(ray, begin + a, begin + b);
+#endif
+        add_global(ray, begin + a, begin + b, ambient, sun_front, march);
+        a = b;
+        part_length *= growth;
     }
-    add_tail_part(ray, part_begin, visible_end, ambient, sun_front, march);
-#else
-    add_tail_part(ray, begin, visible_end, ambient, sun_front, march);
-#endif
-#if CHROMATIC
-    // The clearest channel shows more.
-    float clearest_end = min(end, begin + 16.0 / max(smallest(sigma_t), 1.0e-30));
-    if (clearest_end > visible_end) add_tail_part(ray, visible_end, clearest_end, ambient, sun_front, march);
-#endif
     vec3 depth = height_optical_depth(ray.origin.y + ray.direction.y * begin, ray.direction.y, end - begin) +
                  volumetrics.homogeneous_sigma_t.rgb * (endless ? MAX_OPTICAL_DEPTH : end - begin);
     march.transmittance = before * exp(-to_extinction(depth));

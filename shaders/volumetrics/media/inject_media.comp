@@ -74,10 +74,14 @@ void main() {
             emission += medium.emission_noise.rgb * density;
         }
     }
-    imageStore(froxel_scattering, froxel, round_to_half(scattering));
-    imageStore(froxel_extinction, froxel, round_to_half(vec4(extinction, 0.0)));
+    // What is denser than a half float holds is opaque all the same: as long as its coefficients keep their ratios.
+    const float LARGEST = 1.0e30;
+    float densest = min(max(extinction.r, max(extinction.g, extinction.b)), LARGEST);
+    float scale = min(HALF_MAX / max(densest, 1.0), 1.0);
+    imageStore(froxel_scattering, froxel, round_to_half(min(scattering, LARGEST) * scale));
+    imageStore(froxel_extinction, froxel, round_to_half(vec4(min(extinction, LARGEST) * scale, 0.0)));
 #if EMISSION
-    imageStore(froxel_emission, froxel, round_to_half(vec4(emission, 0.0)));
+    imageStore(froxel_emission, froxel, round_to_half(vec4(min(emission, LARGEST) * scale, 0.0)));
 #endif
     flush_work();
 }

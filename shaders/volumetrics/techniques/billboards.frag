@@ -64,13 +64,26 @@ Medium sheet_medium(Ray ray, vec2 part, vec3 point) {
     return global_medium(ray.origin.y + ray.direction.y * part.x, ray.direction.y, path_length);
 }
 
+// Where in the part so much of the light that leaves its front has been gathered: a share of the optical depth, of which
+// global media have as much before each point as a density that grows or falls exponentially from end to end.
+float light_place(Ray ray, vec2 part, float offset, float depth) {
+    float place = equal_transmittance(offset, depth);
+#if HEIGHT_MEDIA
+    if (slab.z >= 0.0) return place;
+    vec2 y = ray.origin.y + ray.direction.y * part;
+    float front = mean_channel(global_sigma_t(y.x)), back = mean_channel(global_sigma_t(y.y));
+    place = equal_transmittance(place, log(max(front, 1.0e-30) / max(back, 1.0e-30)));
+#endif
+    return place;
+}
+
 March sheet(Ray ray, vec2 part, float offset) {
     Medium m = sheet_medium(ray, part, ray.origin + ray.direction * mix(part.x, part.y, offset));
     float share = fade > 0.0 ? clamp(0.5 * (part.x + part.y) / fade, 0.0, 1.0) : 1.0;
     m.optical_depth *= share;
     Optics optics = medium_optics(m, part.y - part.x);
     Extinction path = share * optics.effective_length;
-    float t = mix(part.x, part.y, equal_transmittance(offset, average(optics.depth)));
+    float t = mix(part.x, part.y, light_place(ray, part, offset, average(optics.depth)));
     vec3 point = ray.origin + ray.direction * t;
 
     vec3 radiance = (m.sigma_s * ambient + m.emission) * path;

@@ -13,13 +13,20 @@ layout(binding = 0) uniform sampler2D depth_texture;
 
 layout(location = 0) flat in vec4 center_radius;
 layout(location = 1) flat in vec4 light;
-layout(location = 2) flat in float local;
+layout(location = 2) flat in vec4 certain;  // a 1: of a local medium
 
+// Sums of light and, for each channel where extinction is coloured, of what of it is known.
 #if GLOBAL_MEDIA
 layout(location = 0) out vec4 out_global;
+#if CHROMATIC
+layout(location = 1) out vec4 out_global_certain;
+#endif
 #endif
 #if LOCAL_MEDIA
-layout(location = GLOBAL_MEDIA) out vec4 out_local;
+layout(location = GLOBAL_MEDIA * (1 + CHROMATIC)) out vec4 out_local;
+#if CHROMATIC
+layout(location = GLOBAL_MEDIA * 2 + 1) out vec4 out_local_certain;
+#endif
 #endif
 
 void main() {
@@ -34,11 +41,18 @@ void main() {
     float rest = max(1.0 - dot(beside, beside) / (radius * radius), 0.0);
     float share = clamp((min(surface, t + radius) - max(t - radius, 0.0)) / (2.0 * radius), 0.0, 1.0);
     float weight = share * rest * rest * 3.0 / (PI * radius * radius);
+    float local = certain.a;
 #if GLOBAL_MEDIA
     out_global = weight * (1.0 - local) * light;
+#if CHROMATIC
+    out_global_certain = weight * (1.0 - local) * certain;
+#endif
 #endif
 #if LOCAL_MEDIA
     out_local = weight * local * light;
+#if CHROMATIC
+    out_local_certain = weight * local * certain;
+#endif
 #endif
     flush_work();
 }

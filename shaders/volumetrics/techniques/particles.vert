@@ -11,13 +11,13 @@ uniform float near;            // m
 
 layout(location = 0) flat out vec4 center_radius;
 layout(location = 1) flat out vec4 light;
-layout(location = 2) flat out float local;
+layout(location = 2) flat out vec4 certain;
 
 void main() {
     ParticleSprite particle = particles[gl_InstanceID];
     center_radius = particle.center_radius;
     light = particle.light;
-    local = particle.local.x;
+    certain = particle.certain;
     vec3 center = center_radius.xyz;
     float radius = center_radius.w;
     float distance = length(center);

@@ -160,8 +160,9 @@ ParticleSprite lit_particle(vec3 center, vec4 clip, float share) {
     if (any(isnan(light)) || any(isinf(light))) light = vec3(0.0);  // of densities that no number holds
     ParticleSprite particle;
     particle.center_radius = vec4(center, radius);
-    particle.light = scale * vec4(light, mean_channel(certain * own.effective_length));
-    particle.local = vec4(medium < 0 ? 0.0 : 1.0, 0.0, 0.0, 0.0);
+    certain *= scale * own.effective_length;
+    particle.light = vec4(scale * light, mean_channel(certain));
+    particle.certain = vec4(certain, medium < 0 ? 0.0 : 1.0);
     return particle;
 }
 

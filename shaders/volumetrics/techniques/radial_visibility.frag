@@ -108,7 +108,7 @@ uint parts_between(float a, float b, float place) {
 
 float visibility_on_screen(Ray ray, float depth, float surface) {
     Extinction sun_front = to_extinction(sun_optical_depth(ray.origin.y, -sun_direction()));
-    Shares shares = Shares(sun_front, depth, gathered(ray, visible_end(ray, surface), sun_front));
+    Shares shares = Shares(sun_front, depth, gathered(ray, visible_end(ray.origin.y, ray.direction.y, surface), sun_front));
     Line line = line_to_sun(ray.uv);
     uint samples = uint(volumetrics.radial_samples);
     float offset = noise_offset(uvec2(gl_FragCoord.xy));

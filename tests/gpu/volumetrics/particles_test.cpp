@@ -71,19 +71,29 @@ TEST_F(VolumetricsParticles, TransmittanceOfGlobalMediaIsBeerLambert) {
 
 TEST_F(VolumetricsParticles, SunIsTheClosedFormWithAnyNumberOfParticles) {
     sunlight();
-    host.global = {{.sigma_s = glm::vec3(0.02F), .sigma_a = glm::vec3(0.01F)}};
-    for (const int count : {512, 8192})
-        for (const float depth : {3.0F, 30.0F, 200.0F}) {
-            s.particles.count = count;
-            host.view_depth = [depth](int, int) { return depth; };
-            const Frame frame = host.render(s);
-            for (int y = 0; y < 32; ++y)
-                for (int x = 0; x < 48; ++x) {
-                    const double d = depth / -host.ray(x, 31 - y).z;
-                    const double expected = 1000 * phase_hg(0, 0) * 0.02 / 0.03 * -std::expm1(-0.03 * d);
-                    ASSERT_NEAR(frame.scattering.at(x, y)[0], expected, 3e-3 * expected) << count << ", " << depth;
-                }
-        }
+    struct Particles {
+        int count;
+        float size;  // 0.25: most pixels have none
+    };
+    for (const glm::vec3 sigma_s : {glm::vec3(0.02F), glm::vec3(0.002F, 0.02F, 0.08F)})
+        for (const Particles particles : {Particles{512, 1}, {8192, 1}, {512, 0.25F}})
+            for (const float depth : {3.0F, 30.0F, 200.0F}) {
+                host.global = {{.sigma_s = sigma_s, .sigma_a = glm::vec3(0.01F)}};
+                s.particles.count = particles.count;
+                s.particles.size = particles.size;
+                host.view_depth = [depth](int, int) { return depth; };
+                const Frame frame = host.render(s);
+                for (int y = 0; y < 32; ++y)
+                    for (int x = 0; x < 48; ++x)
+                        for (int c = 0; c < 3; ++c) {
+                            const double d = depth / -host.ray(x, 31 - y).z, sigma_t = sigma_s[c] + 0.01;
+                            const double expected =
+                                1000 * phase_hg(0, 0) * sigma_s[c] / sigma_t * -std::expm1(-sigma_t * d);
+                            ASSERT_NEAR(frame.scattering.at(x, y)[c], expected, 3e-3 * expected)
+                                << particles.count << " of size " << particles.size << ", " << depth
+                                << " m, channel " << c;
+                        }
+            }
 }
 
 // Half of the air in shadow: nothing but the particles knows.

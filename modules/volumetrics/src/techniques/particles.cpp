@@ -12,7 +12,7 @@ namespace tyndall::volumetrics {
 namespace {
 
 const PermutationAxis has_sun{"HAS_SUN", {0, 1}}, global_media{"GLOBAL_MEDIA", {0, 1}},
-    local_media{"LOCAL_MEDIA", {0, 1}}, grids{"GRIDS", {0, 1}}, chromatic{"CHROMATIC", {0, 1}},
+    local_media{"LOCAL_MEDIA", {0, 1}}, grids{"GRIDS", {0, 1}}, chromatic_axis{"CHROMATIC", {0, 1}},
     count_work{"COUNT_WORK", {0, 1}};
 
 bool has_media(const Permutation& p) {
@@ -32,13 +32,13 @@ const ProgramDesc simulate_program{
 const ProgramDesc draw_program{.name = "volumetrics/particles",
                                .stages = {{GL_VERTEX_SHADER, "shaders/volumetrics/techniques/particles.vert"},
                                           {GL_FRAGMENT_SHADER, "shaders/volumetrics/techniques/particles.frag"}},
-                               .axes = {global_media, local_media, count_work},
+                               .axes = {global_media, local_media, chromatic_axis, count_work},
                                .valid = has_media};
 const ProgramDesc resolve_program{
     .name = "volumetrics/particles_resolve",
     .stages = {{GL_VERTEX_SHADER, "shaders/volumetrics/techniques/view_ray.vert"},
                {GL_FRAGMENT_SHADER, "shaders/volumetrics/techniques/particles_resolve.frag"}},
-    .axes = {global_media, local_media, grids, has_sun, chromatic, count_work},
+    .axes = {global_media, local_media, grids, has_sun, chromatic_axis, count_work},
     .valid = [](const Permutation& p) { return has_media(p) && is_grid_permutation(p); }};
 const ProgramRegistry::Registration simulate_registration(simulate_program), draw_registration(draw_program),
     resolve_registration(resolve_program);
@@ -88,26 +88,30 @@ BufferRef add_simulate(Frame& frame, gl::Buffer& sprites, std::vector<ParticleBa
     return particles;
 }
 
-/// Sums over the particles of each pixel, see the shaders; RGBA32F, for many are added.
+/// Sums over the particles of each pixel, see the shaders; RGBA32F, for many are added. What is certain of coloured
+/// extinction is apart.
 struct Sums {
-    TextureRef global, local;
+    TextureRef global, global_certain, local, local_certain;
 };
 
 Sums add_draw(Frame& frame, const gl::Buffer& sprites, BufferRef particles, GLsizei count) {
     const bool global = frame.media.has_global, local = !frame.media.local.empty();
     Sums sums;
+    const bool chromatic = frame.media.chromatic;
     if (global) sums.global = frame.create("volumetrics/particles_global", GL_RGBA32F);
     if (local) sums.local = frame.create("volumetrics/particles_local", GL_RGBA32F);
+    if (global && chromatic) sums.global_certain = frame.create("volumetrics/particles_global_certain", GL_RGBA32F);
+    if (local && chromatic) sums.local_certain = frame.create("volumetrics/particles_local_certain", GL_RGBA32F);
     const bool hides = is_depth_buffer(frame);
     frame.add({.name = "volumetrics/particles",
                .program = frame.program(draw_program, {{"GLOBAL_MEDIA", global}}),
                .sources = {{frame.depth}},
                .buffers = {particles},
-               .targets = {&sums.global, &sums.local},
+               .targets = {&sums.global, &sums.global_certain, &sums.local, &sums.local_certain},
                .depth_test = hides ? frame.depth : TextureRef{},
                .state = {.depth_test = hides, .blend = gl::Blend::add},
                .set =
-                   [&sprites, targets = static_cast<int>(global) + static_cast<int>(local),
+                   [&sprites, targets = (static_cast<int>(global) + static_cast<int>(local)) * (chromatic ? 2 : 1),
                     matrix = view_projection(frame.inputs),
                     near = frame.inputs.znear](const PassContext&, const gl::Program& shader) {
                        const glm::vec4 nothing{0};
@@ -131,7 +135,12 @@ Estimate add(Frame& frame) {
     const Sums sums = add_draw(frame, sprites, particles, count);
     frame.add({.name = "volumetrics/particles_resolve",
                .program = frame.program(resolve_program, {{"GLOBAL_MEDIA", frame.media.has_global}}),
-               .sources = {{frame.depth}, {noise_volume(frame), true}, {sums.global}, {sums.local}},
+               .sources = {{frame.depth},
+                           {noise_volume(frame), true},
+                           {sums.global},
+                           {sums.local},
+                           {sums.global_certain},
+                           {sums.local_certain}},
                .targets = {&estimate.scattering, &estimate.transmittance},
                .lit = true,
                .local_media = true,
