@@ -129,7 +129,9 @@ Motion measure_motion(Session& session, const View& view, const Point& point) {
         while (after.size() < 4) after.push_back(draw());
         for (int i = 0; i < point.configuration.history_frames; ++i) session.draw(view, time);
         const Image off = draw();
-        for (std::size_t i = 0; i < 3; ++i) motion.residual[i] = residual_light(after[(1u << i) - 1], on, off);
+        // What leaves all media of the place out shows no light that could stay.
+        for (std::size_t i = 0; off.pixels != on.pixels && i < 3; ++i)
+            motion.residual[i] = residual_light(after[(1u << i) - 1], on, off);
     }
     switch_on(session.scene, intensities);
     return motion;

@@ -42,7 +42,8 @@ json read_run(const fs::path& folder, json& pictures) {
             }
         return run;
     } catch (const json::exception& e) {
-        throw Error(fmt::format("{}: results of a suite of points expected (tyndall bench): {}", path.string(), e.what()));
+        throw Error(
+            fmt::format("{}: results of a suite of points expected (tyndall bench): {}", path.string(), e.what()));
     }
 }
 

@@ -55,7 +55,8 @@ void write_pictures(const std::filesystem::path& folder, const PictureNames& nam
     write_image(folder / names.truth, shown(truth, exposure));
     Image error = difference_heatmap(scattering, truth, static_cast<float>(0.5 * mean_value(truth)));
     for (std::size_t i = 0; i < same.size(); ++i)
-        if (!same[i]) std::fill_n(error.at(0, 0) + i * static_cast<std::size_t>(error.channels), error.channels, 0.0F);
+        if (!same[i])
+            std::fill_n(error.at(0, 0) + i * static_cast<std::size_t>(error.channels), error.channels, 0.0F);
     write_image(folder / names.error, error);
 }
 
