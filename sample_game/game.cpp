@@ -30,14 +30,13 @@
 namespace tyndall {
 namespace {
 
-constexpr float game_yfov = 1.05f;  // 60 degrees
 constexpr float game_znear = 0.08f;
 constexpr float least_kept_scale = 0.25f;  // below it the level is not to be recognised
 constexpr double message_seconds = 2.5, help_seconds = 15;
 constexpr const char* help =
     "click: look around   WASD: walk   shift: run   space: jump   F: fly   1-7: places\n"
     "T: time of day   G: fog   V: technique   F1: settings   F2: picture   H: hide this\n"
-    "Esc: free the pointer, then quit";
+    "Esc: pause, player's settings, quit";
 
 const std::array<std::string, 7> places{"LocalPM", "Close", "LocalLights", "Sun", "Depth", "Balance", "Glass"};
 
@@ -74,6 +73,9 @@ class Game {
         session.options.progressive = true;
         if (options.frame_budget > 0 && options.fixed_step == 0)
             budget_.emplace(options.frame_budget, std::min(least_kept_scale, scale_), 1.0f);
+        for (const std::string& place : places)
+            if (session.scene.find_camera(place) != nullptr) ui_.places.push_back(place);
+        session.context->set_full_screen(settings_.full_screen);
         say(options.told.empty() ? help : options.told + "\n" + help, help_seconds);
     }
 
@@ -86,14 +88,18 @@ class Game {
         session_.size = scaled_size(window, scale_);
         keys(input);
         pointer(input);
-        if (player_.update(ui_.wants_keyboard() ? Input{} : input, dt, captured_))
+        if (ui_.paused) dt = 0;
+        player_.look_speed = settings_.look_speed;
+        player_.invert_look = settings_.invert_look;
+        if (player_.update(ui_.paused || ui_.wants_keyboard() ? Input{} : input, dt, captured_))
             session_.renderer->invalidate_history();
 
         time_ += dt;
         session_.shaders->reload_changed();
         animate(session_.scene, time_);
         const float aspect = static_cast<float>(window.x) / static_cast<float>(window.y);
-        session_.draw(make_view(player_.camera_to_world(), game_yfov, game_znear, aspect), time_);
+        session_.draw(
+            make_view(player_.camera_to_world(), glm::radians(settings_.field_of_view), game_znear, aspect), time_);
         screen_.show(*session_.renderer, window);
         if (screenshot_requested_) screenshot();
 
@@ -103,12 +109,18 @@ class Game {
         DebugUi::Hud hud{where(), frame_ms_, message_seconds_left_ > 0 ? message_ : std::string{}};
         if (budget_ && seconds > 0) scale_ = budget_->next(scale_, seconds * 1e3);
         const float scale = scale_;
-        const DebugUi::Requests requests = ui_.frame(session_, logic_, hud, screen_, scale_, dt, !captured_);
+        const PlayerSettings before = settings_;
+        const DebugUi::Requests requests =
+            ui_.frame(session_, logic_, hud, screen_, scale_, seconds, !captured_, settings_);
+        if (settings_ != before) player_changed(before);
+        menu(requests.menu);
         if (scale_ != scale) budget_.reset();  // set by hand
         screenshot_requested_ = requests.screenshot;
         context.present(screen_.framebuffer(), screen_.size());
     }
 
+    /// As when the menu closes.
+    void keep_settings() { pause(false); }
     [[nodiscard]] const Screen& screen() const { return screen_; }
 
     [[nodiscard]] std::string stats() const {
@@ -116,6 +128,7 @@ class Game {
         nlohmann::json stats = stats_json(session_);
         stats["player"] = {{"eye", {eye.x, eye.y, eye.z}},
                            {"direction", {direction.x, direction.y, direction.z}},
+                           {"field_of_view", settings_.field_of_view},
                            {"flying", player_.flying()},
                            {"on_ground", player_.on_ground()}};
         stats["window"] = {screen_.size().x, screen_.size().y};
@@ -125,13 +138,12 @@ class Game {
 
   private:
     void keys(const Input& input) {
-        if (input.pressed(Key::f1) || input.gamepad.menu) {
-            ui_.visible = !ui_.visible;
-            if (ui_.visible) capture(false);
-        }
+        if (input.pressed(Key::f1)) show_debug_ui(!ui_.visible);
         if (input.pressed(Key::f2)) screenshot_requested_ = true;
         if (input.pressed(Key::escape)) escape();
-        if (ui_.wants_keyboard()) return;  // letters and digits go to a text field
+        if (input.gamepad.menu) pause(!ui_.paused);
+        if (ui_.paused && input.pressed(Key::q)) session_.context->request_close();
+        if (ui_.paused || ui_.wants_keyboard()) return;  // letters and digits go to a text field
         if (input.pressed(Key::h)) ui_.hud_visible = !ui_.hud_visible;
         if (input.pressed(Key::f) || input.gamepad.fly) {
             player_.set_flying(!player_.flying());
@@ -150,21 +162,49 @@ class Game {
             if (input.pressed(static_cast<Key>(static_cast<int>(Key::num_1) + i))) go_to(places[i]);
     }
 
-    /// Out of one thing at a time: mouse look, a text field, the debug window, the game.
+    /// Out of one thing at a time: a text field, the debug window, the menu, the game into the menu.
     void escape() {
-        if (captured_)
-            capture(false);
-        else if (ui_.wants_keyboard())
-            return;
-        else if (ui_.visible)
+        if (ui_.wants_keyboard()) return;
+        if (ui_.visible && !captured_)
             ui_.visible = false;
         else
-            session_.context->request_close();
+            pause(!ui_.paused);
+    }
+
+    /// The world stands still behind the menu.
+    void pause(bool on) {
+        ui_.paused = on;
+        if (on) return capture(false);
+        if (settings_ == kept_) return;
+        try {
+            save_player_settings(options_.player_path, settings_);
+            kept_ = settings_;
+        } catch (const Error& e) {
+            say(std::string("not kept: ") + e.what());
+        }
+    }
+
+    void menu(const PauseMenuRequests& requests) {
+        if (requests.place) go_to(*requests.place);
+        if (requests.debug_ui) show_debug_ui(true);
+        if (requests.go_on || requests.place || requests.debug_ui) pause(false);
+        if (requests.quit) session_.context->request_close();
+    }
+
+    void show_debug_ui(bool on) {
+        ui_.visible = on;
+        if (on) capture(false);
+    }
+
+    void player_changed(const PlayerSettings& before) {
+        if (settings_.full_screen != before.full_screen) session_.context->set_full_screen(settings_.full_screen);
+        const std::string preset = preset_of(settings_.quality);
+        if (settings_.quality != before.quality && !preset.empty()) apply_preset(session_.settings, preset);
     }
 
     void pointer(const Input& input) {
         const bool clicked = input.buttons_pressed[static_cast<std::size_t>(MouseButton::left)];
-        if (clicked && !captured_ && !ui_.wants_pointer()) capture(true);
+        if (clicked && !captured_ && !ui_.paused && !ui_.wants_pointer()) capture(true);
     }
 
     void capture(bool on) {
@@ -235,6 +275,7 @@ class Game {
     DebugUi ui_;
     Screen screen_;
     float scale_;
+    PlayerSettings settings_ = options_.player, kept_ = settings_;
     std::optional<FrameBudget> budget_;
     decltype(Input::keys_pressed) early_keys_ = options_.early_keys;
     bool captured_ = false, screenshot_requested_ = false;
@@ -259,6 +300,7 @@ void play(Session& session, const GameOptions& options) {
     FrameClock clock = options.fixed_step > 0 ? FrameClock::fixed(options.fixed_step) : FrameClock::wall();
     for (int i = 0; !session.context->should_close() && (options.frames == 0 || i < options.frames); ++i)
         game.frame(clock.tick());
+    game.keep_settings();
     OutputFiles files;
     if (options.stats) files.add(*options.stats, game.stats());
     if (options.screenshot) files.add(*options.screenshot, encode_image(*options.screenshot, game.screen().read()));

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "sample_game/player_settings.h"
 #include "session/session.h"
 
 namespace tyndall {
@@ -15,7 +16,9 @@ struct GameOptions {
     std::optional<std::filesystem::path> screenshot;  ///< taken of the last frame, with what is on screen
     std::optional<std::filesystem::path> stats;       ///< JSON, written at each F2 screenshot and at the end
     decltype(Input::keys_pressed) early_keys;         ///< pressed while it loaded: they count in the first frame
-    double fixed_step = 0;                            ///< s; 0: the wall clock
+    PlayerSettings player;
+    std::filesystem::path player_path;  ///< where they are kept
+    double fixed_step = 0;              ///< s; 0: the wall clock
 };
 
 /// What the key V chooses: the next technique that a game can run, `off` after the last.

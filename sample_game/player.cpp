@@ -172,13 +172,15 @@ bool Player::on_ground() const {
 }
 
 bool Player::update(const Input& input, double dt, bool look_with_pointer) {
-    if (look_with_pointer) turn(glm::vec2(input.pointer_delta) * pointer_gain);
+    const glm::vec2 gain = look_speed * glm::vec2(1, invert_look ? -1 : 1);
+    if (look_with_pointer) turn(glm::vec2(input.pointer_delta) * pointer_gain * gain);
     if (dt <= 0) return false;
     const auto axis = [&](Key positive, Key negative) {
         return static_cast<float>(input.down(positive)) - static_cast<float>(input.down(negative));
     };
     const glm::vec2 stick = input.gamepad.left;  // +y is down
     glm::vec2 move(axis(Key::d, Key::a) + stick.x, axis(Key::w, Key::s) - stick.y);
+    const glm::vec2 arrows(axis(Key::right, Key::left), axis(Key::down, Key::up));
     if (glm::length(move) > 1) move = glm::normalize(move);
     btKinematicCharacterController& character = *world_->character;
     if (!flying_ && (input.pressed(Key::space) || input.gamepad.jump) && character.onGround()) character.jump();
@@ -187,7 +189,7 @@ bool Player::update(const Input& input, double dt, bool look_with_pointer) {
     const int steps = std::max(1, static_cast<int>(std::ceil(dt / longest_step - 1e-6)));
     const float step = static_cast<float>(dt / steps);
     for (int i = 0; i < steps; ++i) {
-        turn(input.gamepad.right * stick_gain * step);
+        turn((input.gamepad.right + arrows) * stick_gain * step * gain);
         if (flying_)
             fly_step(input, move, step);
         else

@@ -19,6 +19,9 @@ class Player {
 
     /// Puts the eye at `eye`, looking along `direction`, at rest.
     void place(glm::vec3 eye, glm::vec3 direction);
+    float look_speed = 1;      ///< of pointer, stick and arrow keys
+    bool invert_look = false;  ///< down looks up
+
     /// Turns, walks or flies for `dt` seconds in equal steps of at most 1/120 s, so that slow frames lead where
     /// fast ones do. `look` says whether the pointer turns the view. True (a camera cut): the player fell out of
     /// the level and stands at the start again, or walked out of it, onto the node `terrain`, and stands a few

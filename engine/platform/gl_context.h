@@ -54,6 +54,8 @@ class GlContext {
     virtual void show_window(glm::ivec2 size) = 0;
     /// Pixels of the window's framebuffer; the requested size when headless.
     [[nodiscard]] virtual glm::ivec2 framebuffer_size() const = 0;
+    /// The window fills its monitor, or has the size and place again that it had before. Headless: does nothing.
+    virtual void set_full_screen(bool) {}
     /// Captures the pointer for mouse look. Headless: does nothing.
     virtual void capture_pointer(bool) {}
     [[nodiscard]] const Capabilities& capabilities() const { return capabilities_; }

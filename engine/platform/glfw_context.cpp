@@ -75,6 +75,18 @@ class GlfwContext final : public GlContext {
         glfwSetWindowSize(window_, size.x, size.y);
         glfwShowWindow(window_);
     }
+    void set_full_screen(bool full) override {
+        if (full == (glfwGetWindowMonitor(window_) != nullptr)) return;
+        GLFWmonitor* monitor = glfwGetPrimaryMonitor();
+        const GLFWvidmode* mode = monitor == nullptr ? nullptr : glfwGetVideoMode(monitor);
+        if (full && mode != nullptr) {
+            glfwGetWindowPos(window_, &place_.x, &place_.y);
+            glfwGetWindowSize(window_, &size_.x, &size_.y);
+            glfwSetWindowMonitor(window_, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
+        } else if (!full) {
+            glfwSetWindowMonitor(window_, nullptr, place_.x, place_.y, size_.x, size_.y, GLFW_DONT_CARE);
+        }
+    }
     [[nodiscard]] glm::ivec2 framebuffer_size() const override {
         glm::ivec2 size;
         glfwGetFramebufferSize(window_, &size.x, &size.y);
@@ -105,6 +117,7 @@ class GlfwContext final : public GlContext {
     GLFWwindow* window_ = nullptr;
     std::optional<GlfwInput> glfw_input_;
     bool vsync_;
+    glm::ivec2 place_{0}, size_{0};  // of the window before it filled the monitor
 };
 
 }  // namespace

@@ -148,6 +148,13 @@ void GlfwInput::poll_gamepad() {
         pad.jump = edge(GLFW_GAMEPAD_BUTTON_A, gamepad_down_.jump);
         pad.fly = edge(GLFW_GAMEPAD_BUTTON_Y, gamepad_down_.fly);
         pad.menu = edge(GLFW_GAMEPAD_BUTTON_START, gamepad_down_.menu);
+        const auto held = [&](int button) { return state.buttons[button] == GLFW_PRESS; };
+        pad.held = {.up = held(GLFW_GAMEPAD_BUTTON_DPAD_UP),
+                    .down = held(GLFW_GAMEPAD_BUTTON_DPAD_DOWN),
+                    .left = held(GLFW_GAMEPAD_BUTTON_DPAD_LEFT),
+                    .right = held(GLFW_GAMEPAD_BUTTON_DPAD_RIGHT),
+                    .accept = held(GLFW_GAMEPAD_BUTTON_A),
+                    .back = held(GLFW_GAMEPAD_BUTTON_B)};
         pad.up = (axis(GLFW_GAMEPAD_AXIS_RIGHT_TRIGGER) + 1) / 2;
         pad.down = (axis(GLFW_GAMEPAD_AXIS_LEFT_TRIGGER) + 1) / 2;
         return;

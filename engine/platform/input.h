@@ -100,6 +100,9 @@ struct Input {
         glm::vec2 left{0}, right{0};                   ///< sticks, -1..1, +y is down (GLFW), dead zone removed
         bool jump = false, fly = false, menu = false;  ///< pressed edges of A, Y, Start
         float up = 0, down = 0;                        ///< triggers 0..1
+        struct Menu {
+            bool up = false, down = false, left = false, right = false, accept = false, back = false;
+        } held;  ///< directional pad, A and B
     } gamepad;
 
     [[nodiscard]] bool down(Key k) const { return keys_down[static_cast<int>(k)]; }

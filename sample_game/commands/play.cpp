@@ -88,19 +88,27 @@ void add_play_command(CLI::App& app) {
         }
         if (o->game.stats) outputs.push_back({"--stats", *o->game.stats});
         check_outputs(outputs, o->draw.inputs());
+        o->game.player_path = player_settings_path();
+        try {
+            o->game.player = load_player_settings(o->game.player_path);
+        } catch (const Error& e) {
+            o->game.told = fmt::format("{}: the player's settings are the defaults\n", e.what());
+        }
         std::optional<LoadingPicture> picture;
         float share = 0;
         const auto choose = [&](Session& opening) {
             PlayGiven given{
                 .window = {}, .scale = o->scale, .frame_budget = o->frame_budget, .preset = o->draw.preset};
             if (command->count("--size") > 0) given.window = o->draw.pixels();
+            const std::string kept = preset_of(o->game.player.quality);
+            if (!given.preset && !kept.empty()) given.preset = kept;
             const PlayChoice choice = choose_play(opening.context->capabilities().renderer, given);
             o->draw.preset = choice.preset;
             opening.settings.set("scattering_orders=4");  // players see white clouds
             o->draw.apply(opening.settings);
             o->game.scale = choice.scale;
             o->game.frame_budget = choice.frame_budget;
-            o->game.told = choice.told;
+            o->game.told += choice.told;
             opening.context->show_window(choice.window);
         };
         Session session(o->draw, true, [&](Session& opening, const std::string& doing) {

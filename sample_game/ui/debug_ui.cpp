@@ -64,6 +64,7 @@ void DebugUi::ContextDeleter::operator()(ImGuiContext* context) const {
 
 DebugUi::DebugUi(ShaderLibrary& shaders) : context_(ImGui::CreateContext()) {
     ImGui::GetIO().IniFilename = nullptr;
+    ImGui::GetIO().BackendFlags |= ImGuiBackendFlags_HasGamepad;
     style();
     renderer_ = std::make_unique<ImguiRenderer>(shaders);
     viewer_ = std::make_unique<TextureViewer>(shaders);
@@ -179,13 +180,17 @@ DebugUi::Requests DebugUi::window(Session& session, LevelLogic& logic, float& sc
 }
 
 DebugUi::Requests DebugUi::frame(Session& session, LevelLogic& logic, const Hud& hud, const Screen& screen,
-                                 float& scale, double dt, bool pointer_is_free) {
+                                 float& scale, double dt, bool pointer_is_free, PlayerSettings& player) {
     input_.feed(session.context->input(), screen.size(), dt, pointer_is_free);
+    // Only in the menu: elsewhere the same keys and buttons walk.
+    ImGui::GetIO().ConfigFlags =
+        paused ? ImGuiConfigFlags_NavEnableKeyboard | ImGuiConfigFlags_NavEnableGamepad : ImGuiConfigFlags_None;
     ImGui::NewFrame();
     Requests requests;
     if (hud_visible) hud_line(session, hud);
     shader_errors(*session.shaders);
     if (visible) requests = window(session, logic, scale);
+    if (paused) requests.menu = pause_menu(player, places);
     ImGui::Render();
     renderer_->draw(screen.framebuffer(), screen.size());
     return requests;

@@ -6,6 +6,7 @@
 #include "sample_game/screen.h"
 #include "sample_game/ui/imgui_input.h"
 #include "sample_game/ui/imgui_renderer.h"
+#include "sample_game/ui/pause_menu.h"
 #include "sample_game/ui/texture_viewer.h"
 #include "session/session.h"
 
@@ -28,14 +29,17 @@ class DebugUi {
     };
     struct Requests {
         bool screenshot = false;
+        PauseMenuRequests menu;
     };
     /// Builds and draws over the screen. `scale`: of the scene, which the debug window changes. `pointer_is_free`:
-    /// not captured for mouse look.
+    /// not captured for mouse look. With `paused`, the menu is shown.
     Requests frame(Session& session, LevelLogic& logic, const Hud& hud, const Screen& screen, float& scale,
-                   double dt, bool pointer_is_free);
+                   double dt, bool pointer_is_free, PlayerSettings& player);
 
-    bool visible = false;     ///< the debug window (F1)
-    bool hud_visible = true;  ///< the HUD line (H)
+    bool visible = false;             ///< the debug window (F1)
+    bool hud_visible = true;          ///< the HUD line (H)
+    bool paused = false;              ///< the menu (Esc)
+    std::vector<std::string> places;  ///< that the menu goes to
     [[nodiscard]] bool wants_keyboard() const;
     [[nodiscard]] bool wants_pointer() const;
 

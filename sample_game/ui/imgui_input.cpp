@@ -52,6 +52,14 @@ void ImguiInput::feed(const Input& input, glm::ivec2 size, double dt, bool point
     io.MouseWheel = pointer_is_free ? static_cast<float>(input.scroll) : 0.0f;
     for (int key = 0; key < static_cast<int>(Key::count); ++key)
         io.KeysDown[key] = input.keys_down[key] || input.keys_pressed[key];
+    const auto& pad = input.gamepad.held;
+    const auto navigate = [&](ImGuiNavInput_ to, bool held) { io.NavInputs[to] = held ? 1.0f : 0.0f; };
+    navigate(ImGuiNavInput_DpadUp, pad.up);
+    navigate(ImGuiNavInput_DpadDown, pad.down);
+    navigate(ImGuiNavInput_DpadLeft, pad.left);
+    navigate(ImGuiNavInput_DpadRight, pad.right);
+    navigate(ImGuiNavInput_Activate, pad.accept);
+    navigate(ImGuiNavInput_Cancel, pad.back);
     io.KeyShift = modifiers.shift;
     io.KeyCtrl = modifiers.control;
     io.KeyAlt = modifiers.alt;

@@ -113,7 +113,7 @@ bool curve_row(const SettingsSet::Group& group, const Setting& s) {
 void row(const Setting& s, void* object) {
     double value = s.get(object);
     if (edit(s, value)) s.set(object, value);
-    if (ImGui::IsItemHovered()) tooltip(s);
+    if (ImGui::IsItemHovered() && !ImGui::GetIO().NavVisible) tooltip(s);  // by the pointer, not by keys
     if (ImGui::IsItemClicked(ImGuiMouseButton_Right)) s.set(object, s.default_value);
 }
 
@@ -158,6 +158,10 @@ void section_rows(const SettingsSet::Group& group, const SettingsSection& sectio
 }
 
 }  // namespace
+
+void settings_rows(const SettingsSet::Group& group) {
+    for (const Setting& s : group.table->settings()) row(s, group.object);
+}
 
 void settings_panel(SettingsSet& settings, bool& show_acceptance) {
     for (const SettingsSet::Group& group : settings.groups()) {

@@ -9,4 +9,7 @@ namespace tyndall {
 /// those that matter to the chosen technique are there. `show_acceptance`: VolumetricsAdapter.
 void settings_panel(SettingsSet& settings, bool& show_acceptance);
 
+/// The same for all rows of one table.
+void settings_rows(const SettingsSet::Group& group);
+
 }  // namespace tyndall

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "engine/core/files.h"
 #include "engine/scene/scene.h"
 #include "sample_game/ui/settings_sections.h"
 #include "support/game_process.h"
@@ -38,6 +39,12 @@ float distance_to_next_place(const Scene& level, glm::vec3 from, glm::vec3 at) {
         result = glm::distance(glm::vec2(place.x, place.z), glm::vec2(at.x, at.z));
     }
     return result;
+}
+
+/// By the menu.
+void quit(GameProcess& game) {
+    game.key("Escape");
+    game.key("q");
 }
 
 double mean_difference(const Image& a, const Image& b) {
@@ -141,7 +148,7 @@ TEST(Window, WalkLookAndTheDebugUi) {
         [&](const auto& s) { return glm::distance(eye(s), std::exchange(last, eye(s))) < 0.01f; }, "standstill");
     EXPECT_TRUE(stopped.stats.at("player").at("on_ground").get<bool>());
 
-    // A click takes the pointer, moving it turns the view, Esc gives it back.
+    // A click takes the pointer, moving it turns the view, the menu gives it back.
     game.click();
     game.frames(1);
     game.turn_pointer(200, 0);
@@ -149,7 +156,9 @@ TEST(Window, WalkLookAndTheDebugUi) {
         [&](const auto& s) { return glm::dot(direction(s), direction(stopped)) < 0.95f; }, "turn of the view");
     EXPECT_NEAR(direction(turned).y, direction(stopped).y, 0.05);
     EXPECT_LT(glm::distance(eye(turned), eye(stopped)), 0.05f);
-    game.key("Escape");
+    game.key("Escape");  // into the menu
+    game.frames(1);
+    game.key("Escape");  // and out of it
     game.frames(1);
 
     // V brings the fog back; then the debug UI takes the filter and the noise away.
@@ -176,7 +185,7 @@ TEST(Window, WalkLookAndTheDebugUi) {
 
     game.key("Escape");  // the debug window
     game.frames(1);
-    game.key("Escape");  // the game
+    quit(game);
     EXPECT_EQ(game.wait_for_exit(), 0);
     EXPECT_EQ(game.stats().at("gl_messages"), 0);
 }
@@ -221,7 +230,7 @@ TEST_F(SmallGame, StatisticsThatCannotBeWrittenCostNoPicture) {
     std::filesystem::remove(game_->folder() / "stats.json");
     std::filesystem::create_directory(game_->folder() / "stats.json");
     EXPECT_EQ(game_->picture().size, glm::ivec2(448, 540));
-    game_->key("Escape");
+    quit(*game_);
     EXPECT_EQ(game_->wait_for_exit(), 1);
 }
 
@@ -246,9 +255,40 @@ TEST_F(SmallGame, ThePictureFollowsTheWindowAndTheSliderOfItsScale) {
     EXPECT_EQ(state.picture.size, glm::ivec2(500, 400));
     game_->key("Escape");
     game_->frames(1);
-    game_->key("Escape");
+    quit(*game_);
     EXPECT_EQ(game_->wait_for_exit(), 0);
     EXPECT_EQ(game_->stats().at("gl_messages"), 0);
+}
+
+TEST_F(SmallGame, TheMenuStopsTheGameAndKeepsWhatAPlayerSets) {
+    const GameProcess::State start = game_->state();
+    game_->key_down("Right");  // looks, without a mouse
+    const GameProcess::State turned = game_->state_when(
+        [&](const auto& s) { return glm::dot(direction(s), direction(start)) < 0.98f; }, "turn of the view");
+    game_->key_up("Right");
+    game_->frames(2);
+    const GameProcess::State before = game_->state();
+
+    game_->key("Escape");
+    game_->frames(2);
+    game_->key_down("w");
+    game_->frames(4);
+    EXPECT_EQ(eye(game_->state()), eye(before)) << "nobody walks behind the menu";
+    game_->key_up("w");
+    for (const char* key : {"Down", "space", "Right", "space"}) {  // the field of view, one step wider
+        game_->key(key);
+        game_->frames(2);
+    }
+    const std::filesystem::path kept = game_->folder() / "tyndall/player.json";
+    EXPECT_FALSE(std::filesystem::exists(kept)) << "until the menu closes";
+    game_->key("Escape");
+    const GameProcess::State wider =
+        game_->state_when([&](const auto&) { return std::filesystem::exists(kept); }, "kept settings");
+    EXPECT_GT(wider.stats.at("player").at("field_of_view"), 60);
+    EXPECT_NEAR(read_json(kept).at("field_of_view").get<double>(),
+                wider.stats.at("player").at("field_of_view").get<double>(), 1e-3);
+    quit(*game_);
+    EXPECT_EQ(game_->wait_for_exit(), 0);
 }
 
 }  // namespace

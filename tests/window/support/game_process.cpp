@@ -55,6 +55,7 @@ GameProcess::GameProcess(const std::vector<std::string>& arguments) {
     if (pid_ < 0) throw std::runtime_error("fork failed");
     if (pid_ == 0) {
         if (chdir(folder_.path().c_str()) != 0) _exit(126);
+        setenv("XDG_CONFIG_HOME", folder_.path().c_str(), 1);
         dup2(open("log.txt", O_WRONLY | O_CREAT, 0600), STDERR_FILENO);
         std::vector<char*> argv;
         for (std::string& word : words) argv.push_back(word.data());
