@@ -17,10 +17,12 @@ int main(int argc, char** argv) {
         tyndall::add_bench_command(app);
         tyndall::add_report_command(app);
         tyndall::add_list_command(app);
+        tyndall::add_inspect_command(app);
         if (argc > 1 && argv[1][0] != '-' &&
             app.get_subcommands([&](const CLI::App* c) { return c->get_name() == argv[1]; }).empty())
             throw tyndall::UsageError(fmt::format(
-                "no command '{}': expected play, render, reference, compare, flythrough, bench, report or list",
+                "no command '{}': expected play, render, reference, compare, flythrough, bench, report, list or "
+                "inspect",
                 argv[1]));
         app.parse(argc, argv);
         return 0;

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 #include <tiny_gltf.h>
 
 #include <cmath>
@@ -40,12 +39,16 @@ class GltfFile {
     /// Notes what is left out of a file that is otherwise drawn.
     template <class... Args>
     void skip(fmt::format_string<Args...> format, Args&&... args) const {
-        skipped_.insert(one_line(path_.string() + ": " + fmt::format(format, std::forward<Args>(args)...)));
+        skipped_.insert(one_line(fmt::format(format, std::forward<Args>(args)...)));
     }
-    /// Logs what was left out, each once. Of a file that is refused only the reason is told.
-    void tell_skipped() const {
-        for (const std::string& what : skipped_) spdlog::warn("{}", what);
+    /// Notes what looks like a mistake of who made the file.
+    template <class... Args>
+    void doubt(fmt::format_string<Args...> format, Args&&... args) const {
+        doubts_.insert(one_line(fmt::format(format, std::forward<Args>(args)...)));
     }
+    /// What was left out, and what looks like a mistake, each once.
+    [[nodiscard]] const std::set<std::string>& skipped() const { return skipped_; }
+    [[nodiscard]] const std::set<std::string>& doubts() const { return doubts_; }
 
     template <class T>
     const T& at(const std::vector<T>& items, int index, const std::string& what) const {
@@ -109,7 +112,7 @@ class GltfFile {
 
     std::filesystem::path path_;
     tinygltf::Model model_;
-    mutable std::set<std::string> skipped_;  ///< a note of what was read, not of the file
+    mutable std::set<std::string> skipped_, doubts_;  ///< notes of what was read, not of the file
 };
 
 }  // namespace tyndall::gltf

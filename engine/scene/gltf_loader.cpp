@@ -1,4 +1,4 @@
-#include <fmt/ranges.h>
+#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <cmath>
@@ -22,11 +22,15 @@ float default_exposure(const Scene& scene) {
     return brightest > 0 ? std::log2(brightest / std::numbers::pi_v<float>) : 0.0f;
 }
 
+/// Of the scene that is shown.
+gltf::Json scene_extras(const GltfFile& file) {
+    if (file.model().scenes.empty()) return gltf::Json::object();
+    return file.extras(file.model().scenes[static_cast<std::size_t>(std::max(file.model().defaultScene, 0))]);
+}
+
 void load_scene_extras(const GltfFile& file, Scene& scene) {
     scene.exposure_ev100 = default_exposure(scene);
-    if (file.model().scenes.empty()) return;
-    const auto index = static_cast<std::size_t>(std::max(file.model().defaultScene, 0));
-    const gltf::Json extra = file.extras(file.model().scenes[index]);
+    const gltf::Json extra = scene_extras(file);
     if (extra.contains("exposure"))
         scene.exposure_ev100 = file.number(extra["exposure"], "extras.exposure", -64, 64);
     if (!extra.contains("media")) return;
@@ -53,27 +57,6 @@ void end_lamps(Scene& scene) {
         const float brightest = std::max({light.intensity.r, light.intensity.g, light.intensity.b});
         light.range = std::max(std::sqrt(brightest / least), light.radius);
     }
-}
-
-/// Names of extras that nothing reads, told in one line: a name that is a little off would else go unseen.
-void tell_ignored_extras(const GltfFile& file) {
-    std::vector<std::string> ignored;
-    const auto look = [&](const auto& items, const char* what, std::initializer_list<const char*> known) {
-        for (const auto& item : items) {
-            const gltf::Json extra = file.extras(item);
-            for (const auto& [key, value] : extra.items()) {
-                const std::string name = fmt::format("\"{}\" of a {}", key, what);
-                if (std::ranges::find(known, key) == known.end() &&
-                    std::ranges::find(ignored, name) == ignored.end())
-                    ignored.push_back(name);
-            }
-        }
-    };
-    look(file.model().scenes, "scene", {"exposure", "media"});
-    look(file.model().nodes, "node", {"cast_shadow", "draw_distance", "particles"});
-    look(file.model().lights, "light", {"radius", "shadow"});
-    look(file.model().animations, "animation", {"places"});
-    if (!ignored.empty()) file.skip("extras ignored: {}", fmt::join(ignored, ", "));
 }
 
 constexpr float farthest = 1e9f;  // m; squares and products of distances stay finite
@@ -144,6 +127,14 @@ void place_in_world(const GltfFile& file, Scene& scene) {
 }  // namespace
 
 Scene load_gltf(const std::filesystem::path& path) {
+    GltfNotes notes;
+    Scene scene = load_gltf(path, notes);
+    for (const auto& lines : {notes.doubts, notes.left_out})
+        for (const std::string& line : lines) spdlog::warn("{}", gltf::one_line(path.string() + ": " + line));
+    return scene;
+}
+
+Scene load_gltf(const std::filesystem::path& path, GltfNotes& notes) {
     try {
         const GltfFile file(path);
         Scene scene;
@@ -154,10 +145,14 @@ Scene load_gltf(const std::filesystem::path& path) {
         gltf::load_animations(file, nodes, scene);
         load_scene_extras(file, scene);
         end_lamps(scene);
-        tell_ignored_extras(file);
+        gltf::tell_ignored_extras(file);
         if (scene.materials.empty()) scene.materials.emplace_back().name = "default";
         place_in_world(file, scene);
-        file.tell_skipped();
+        notes = {.generator = gltf::one_line(file.model().asset.generator),
+                 .extensions = file.model().extensionsUsed,
+                 .exposure = scene_extras(file).contains("exposure"),
+                 .left_out = {file.skipped().begin(), file.skipped().end()},
+                 .doubts = {file.doubts().begin(), file.doubts().end()}};
         return scene;
     } catch (const Error&) {
         throw;

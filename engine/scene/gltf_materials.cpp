@@ -141,7 +141,9 @@ void tell_if_empty(const GltfFile& file, const tinygltf::Material& from, const M
                                     to.occlusion_picture, to.emissive_picture}) >= 0;
     const bool factors = to.base_color != glm::vec4(1) || to.metallic != 1 || to.roughness != 1;
     if (!pictures && !factors && to.emissive == glm::vec3(0) && from.extensions.empty())
-        file.skip("{}: it says nothing of its surface, drawn as white metal", what);
+        file.doubt(
+            "{}: it says nothing of its surface, drawn as white metal; exporters leave that of a volume alone",
+            what);
 }
 
 Material load_material(const GltfFile& file, const tinygltf::Material& from, Pictures& pictures,

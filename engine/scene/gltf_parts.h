@@ -20,5 +20,7 @@ void load_materials(const GltfFile& file, Scene& scene);
 /// The node's emitter, if its extras have one.
 void load_particles(const GltfFile& file, const Json& extras, int node, Scene& scene, const std::string& what);
 void load_animations(const GltfFile& file, const std::vector<int>& nodes, Scene& scene);
+/// Names the extras that nothing reads, and doubts those that look like ones that are read.
+void tell_ignored_extras(const GltfFile& file);
 
 }  // namespace tyndall::gltf

@@ -176,8 +176,19 @@ void add_missing_camera(Scene& scene);
 /// Adds a sun, if the scene has no light at all: for a visitor of an unlit model. Pictures and measurements do not.
 void add_missing_sun(Scene& scene);
 
+/// What a glTF file says beside its scene, and what the loader has to say of it.
+struct GltfNotes {
+    std::string generator;                ///< the program that wrote it; may be empty
+    std::vector<std::string> extensions;  ///< that it uses
+    bool exposure = false;                ///< whether it gives one
+    std::vector<std::string> left_out;    ///< what is not read, and why: a line each
+    std::vector<std::string> doubts;      ///< what looks like a mistake: a line each
+};
+
 /// Loads .gltf or .glb. Only files inside the scene's folder are read. Throws Error: path, what, expected. Bad
-/// numbers (NaN, Inf, negative intensity, indices out of range) are errors.
+/// numbers (NaN, Inf, negative intensity, indices out of range) are errors. What is left out and what looks like a
+/// mistake is logged, once the whole file is found right, or handed over in `notes`.
 [[nodiscard]] Scene load_gltf(const std::filesystem::path& path);
+[[nodiscard]] Scene load_gltf(const std::filesystem::path& path, GltfNotes& notes);
 
 }  // namespace tyndall

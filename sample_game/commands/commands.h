@@ -9,6 +9,7 @@ namespace tyndall {
 void add_bench_command(CLI::App& app);
 void add_compare_command(CLI::App& app);
 void add_flythrough_command(CLI::App& app);
+void add_inspect_command(CLI::App& app);
 void add_list_command(CLI::App& app);
 void add_play_command(CLI::App& app);
 void add_reference_command(CLI::App& app);

@@ -96,6 +96,8 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(
         Case{"MissingScene", render("{tmp}/none.glb"), 1, {"none.glb"}},
         Case{"CorruptScene", render("{tmp}/corrupt.glb"), 1, {"corrupt.glb"}},
+        Case{"InspectCorruptScene", {"inspect", "{tmp}/corrupt.glb"}, 1, {"corrupt.glb"}},
+        Case{"InspectNothing", {"inspect"}, 2, {"SCENE"}},
         Case{"UriLeavesFolder", render("{tmp}/escape.gltf"), 1, {"escape.gltf", "../secret.bin"}},
         Case{"MissingTexture", render("{tmp}/texture.gltf"), 1, {"missing.png"}},
         Case{"CorruptTexture", render("{tmp}/bad_texture.gltf"), 1, {"bad.png"}},
