@@ -16,7 +16,7 @@ struct Owner {
     std::vector<std::string_view> read;
 };
 const Owner of_scene{"scene", {"exposure", "media"}};
-const Owner of_node{"node", {"cast_shadow", "draw_distance", "particles"}};
+const Owner of_node{"node", {"cast_shadow", "draw_distance", "medium", "particles"}};
 const Owner of_light{"light", {"radius", "shadow"}};
 const Owner of_animation{"animation", {"places"}};
 const Owner of_mesh{"mesh", {"targetNames"}};  // names of morph targets, which are told elsewhere
@@ -50,12 +50,15 @@ std::string meant(std::string_view key, const Owner& owner) {
     for (const std::string_view known : owner.read)
         if (given.size() > 3 && distance(given, plain(known)) <= given.size() / 4)
             return fmt::format("\"{}\" meant?", known);
+    constexpr std::string_view fogs[] = {"fog",        "mist",        "haze",   "smoke", "volume",
+                                         "volumetric", "volumetrics", "medium", "media"};
+    if (std::ranges::find(fogs, given) != std::end(fogs))
+        return &owner == &of_scene  ? "\"media\" meant?"
+               : &owner == &of_node ? "\"medium\" meant, or \"media\" of the scene?"
+                                    : "\"medium\" of a node meant, or \"media\" of the scene?";
     for (const Owner* other : {&of_scene, &of_node, &of_light, &of_animation})
         for (const std::string_view known : other->read)
             if (given == plain(known)) return fmt::format("\"{}\" is read of a {}", known, other->name);
-    constexpr std::string_view fogs[] = {"fog",    "mist",       "haze",        "smoke",
-                                         "volume", "volumetric", "volumetrics", "medium"};
-    if (std::ranges::find(fogs, given) != std::end(fogs)) return "\"media\" of the scene meant?";
     return {};
 }
 

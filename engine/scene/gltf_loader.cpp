@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "engine/core/files.h"
 #include "engine/scene/gltf_parts.h"
 #include "engine/scene/mesh_build.h"
 
@@ -28,21 +27,11 @@ gltf::Json scene_extras(const GltfFile& file) {
     return file.extras(file.model().scenes[static_cast<std::size_t>(std::max(file.model().defaultScene, 0))]);
 }
 
-void load_scene_extras(const GltfFile& file, Scene& scene) {
+void load_exposure(const GltfFile& file, Scene& scene) {
     scene.exposure_ev100 = default_exposure(scene);
     const gltf::Json extra = scene_extras(file);
     if (extra.contains("exposure"))
         scene.exposure_ev100 = file.number(extra["exposure"], "extras.exposure", -64, 64);
-    if (!extra.contains("media")) return;
-    gltf::Json media = extra["media"];
-    if (media.is_string()) {  // a text property of a modelling program
-        try {
-            media = parse_json(media.get<std::string>());
-        } catch (const Error& e) {
-            file.fail("extras.media: the text is not valid JSON: {}", e.what());
-        }
-    }
-    scene.media = parse_media(media, scene.path.string() + ": extras", scene.path.parent_path());
 }
 
 /// Lamps without a range end where a white surface that faces them would be a quarter of a step of 8 bits brighter
@@ -143,9 +132,11 @@ Scene load_gltf(const std::filesystem::path& path, GltfNotes& notes) {
         const auto meshes = gltf::load_meshes(file, scene);
         const auto nodes = gltf::load_nodes(file, meshes, scene);
         gltf::load_animations(file, nodes, scene);
-        load_scene_extras(file, scene);
+        gltf::load_media(file, scene_extras(file), nodes, scene);
+        load_exposure(file, scene);
         end_lamps(scene);
         gltf::tell_ignored_extras(file);
+        gltf::doubt_empty_materials(file, scene);
         if (scene.materials.empty()) scene.materials.emplace_back().name = "default";
         place_in_world(file, scene);
         notes = {.generator = gltf::one_line(file.model().asset.generator),

@@ -134,16 +134,12 @@ float load_transmission(const GltfFile& file, const tinygltf::Material& from, co
     return value == nullptr ? 0 : file.number(value->GetNumberAsDouble(), what + ": transmissionFactor", 0, 1);
 }
 
-/// What an exporter leaves of a material that glTF cannot express, such as one of a volume alone.
-void tell_if_empty(const GltfFile& file, const tinygltf::Material& from, const Material& to,
-                   const std::string& what) {
+/// It says nothing of its surface, as what an exporter leaves of a volume alone, which glTF cannot express.
+bool is_empty(const tinygltf::Material& from, const Material& to) {
     const bool pictures = std::max({to.base_color_picture, to.metallic_roughness_picture, to.normal_picture,
                                     to.occlusion_picture, to.emissive_picture}) >= 0;
     const bool factors = to.base_color != glm::vec4(1) || to.metallic != 1 || to.roughness != 1;
-    if (!pictures && !factors && to.emissive == glm::vec3(0) && from.extensions.empty())
-        file.doubt(
-            "{}: it says nothing of its surface, drawn as white metal; exporters leave that of a volume alone",
-            what);
+    return !pictures && !factors && to.emissive == glm::vec3(0) && from.extensions.empty();
 }
 
 Material load_material(const GltfFile& file, const tinygltf::Material& from, Pictures& pictures,
@@ -182,7 +178,6 @@ Material load_material(const GltfFile& file, const tinygltf::Material& from, Pic
     to.normal_picture = texture(from.normalTexture, "normalTexture");
     to.occlusion_picture = texture(from.occlusionTexture, "occlusionTexture");
     to.emissive_picture = texture(from.emissiveTexture, "emissiveTexture");
-    tell_if_empty(file, from, to, what);
     return to;
 }
 
@@ -195,6 +190,20 @@ void load_materials(const GltfFile& file, Scene& scene) {
         scene.materials.push_back(load_material(file, from, pictures, what));
     }
     scene.pictures = pictures.decode();
+}
+
+void doubt_empty_materials(const GltfFile& file, const Scene& scene) {
+    for (const Node& node : scene.nodes)
+        for (const int mesh : node.meshes) {
+            const auto index = static_cast<std::size_t>(scene.meshes[static_cast<std::size_t>(mesh)].material);
+            const auto& materials = file.model().materials;  // the default one is none of the file's
+            if (index < materials.size() && is_empty(materials[index], scene.materials[index]))
+                file.doubt(
+                    "material {} \"{}\": it says nothing of its surface, drawn as white metal; exporters leave "
+                    "that of a "
+                    "volume alone",
+                    index, materials[index].name);
+        }
 }
 
 }  // namespace tyndall::gltf

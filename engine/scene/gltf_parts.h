@@ -20,6 +20,11 @@ void load_materials(const GltfFile& file, Scene& scene);
 /// The node's emitter, if its extras have one.
 void load_particles(const GltfFile& file, const Json& extras, int node, Scene& scene, const std::string& what);
 void load_animations(const GltfFile& file, const std::vector<int>& nodes, Scene& scene);
+/// The media of the scene's extras, then those of nodes' extras, whose places and sizes are the nodes'; the meshes
+/// of these nodes are not drawn. Leaves the scene at time 0.
+void load_media(const GltfFile& file, const Json& scene_extras, const std::vector<int>& nodes, Scene& scene);
+/// Doubts materials of drawn meshes that say nothing.
+void doubt_empty_materials(const GltfFile& file, const Scene& scene);
 /// Names the extras that nothing reads, and doubts those that look like ones that are read.
 void tell_ignored_extras(const GltfFile& file);
 

@@ -250,6 +250,11 @@ std::vector<Medium> parse_media(const Json& json, const std::string& where, cons
     return media;
 }
 
+Medium parse_medium(const Json& json, const std::string& where, const std::filesystem::path& folder) {
+    GridFiles files{folder};
+    return parse_medium({json, where}, files);
+}
+
 std::vector<Medium> load_media(const std::filesystem::path& path) {
     return parse_media(read_json(path), path.string(), path.parent_path());
 }

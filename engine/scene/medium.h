@@ -61,6 +61,9 @@ struct Medium {
 /// inside it; one that several media name is read once.
 [[nodiscard]] std::vector<Medium> parse_media(const nlohmann::json& json, const std::string& where,
                                               const std::filesystem::path& folder);
+/// One entry of such a list; `where` is it.
+[[nodiscard]] Medium parse_medium(const nlohmann::json& json, const std::string& where,
+                                  const std::filesystem::path& folder);
 [[nodiscard]] std::vector<Medium> load_media(const std::filesystem::path& path);
 
 }  // namespace tyndall

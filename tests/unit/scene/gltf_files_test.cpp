@@ -253,7 +253,7 @@ TEST_F(GltfFiles, WhatIsIgnoredIsNamedInOneLine) {
     b.doc["scenes"][0]["extras"] = {{"media ", "[]"}, {"fog", "x"}, {"exposure", 1}};
     b.doc["extensionsUsed"] = {"KHR_materials_clearcoat", "KHR_lights_punctual"};
     (void)load_heard(b);
-    EXPECT_THAT(log_, HasSubstr("extras: \"fog\" of a scene is not read: \"media\" of the scene meant?\n"));
+    EXPECT_THAT(log_, HasSubstr("extras: \"fog\" of a scene is not read: \"media\" meant?\n"));
     EXPECT_THAT(log_, HasSubstr("extras: \"media \" of a scene is not read: \"media\" meant?\n"));
     EXPECT_THAT(log_, HasSubstr("extras ignored: \"hp\" of a node\n"));
     EXPECT_THAT(log_, HasSubstr("extensions ignored: KHR_materials_clearcoat\n"));
@@ -261,6 +261,7 @@ TEST_F(GltfFiles, WhatIsIgnoredIsNamedInOneLine) {
     EXPECT_EQ(std::ranges::count(log_, '\n'), 5);
     // A material of a volume alone, as an exporter leaves it.
     b.doc["materials"] = {{{"name", "fog"}, {"doubleSided", true}, {"pbrMetallicRoughness", json::object()}}};
+    b.doc["meshes"][0]["primitives"][0]["material"] = 0;
     (void)load_heard(b);
     EXPECT_THAT(log_, HasSubstr("material 0 \"fog\": it says nothing of its surface, drawn as white metal; "));
     b.doc["materials"] = {
