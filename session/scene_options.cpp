@@ -34,6 +34,7 @@ void SceneOptions::add_to(CLI::App& command, const std::string& default_scene, c
     auto* scene_option = command.add_option("SCENE", scene, "a glTF scene (.glb or .gltf)");
     if (default_scene.empty()) scene_option->required();
     command.add_option("--size", size, "pixels, WxH")->capture_default_str();
+    command.add_option("--animation", animation, "the only animation of the scene that plays (default: all)");
     command.add_option("--media", media, "media file that replaces the scene's own media");
     command.add_option("--add-media", add_media, "media file whose media are added");
     command.add_option("--technique", technique, "volumetric technique (tyndall list techniques)");
@@ -73,7 +74,7 @@ std::vector<NamedFile> SceneOptions::inputs() const {
 }
 
 Scene SceneOptions::load() const {
-    Scene loaded = load_gltf(scene);
+    Scene loaded = load_gltf(scene, animation);
     if (media) loaded.media = load_media(*media);
     if (add_media) std::ranges::move(load_media(*add_media), std::back_inserter(loaded.media));
     add_missing_camera(loaded);
@@ -91,7 +92,7 @@ void ViewOptions::add_to(CLI::App& command) {
     command
         .add_option("--fov", fov, fmt::format("vertical field of view in degrees, with --eye ({})", default_fov))
         ->check(number_in(1, 170));
-    command.add_option("--time", time, "seconds")->check(number_in(-1e6, 1e6))->capture_default_str();
+    command.add_option("--time", time, "seconds (0)")->check(number_in(-1e6, 1e6));
 }
 
 void ViewOptions::check() const {

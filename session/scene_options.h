@@ -20,7 +20,7 @@ namespace tyndall {
 struct SceneOptions {
     std::string scene;
     std::string size;
-    std::optional<std::string> media, add_media, technique, preset;
+    std::optional<std::string> animation, media, add_media, technique, preset;
     std::vector<std::string> set;
 
     /// Adds the options to a command; the scene is required unless it has a default.
@@ -28,15 +28,16 @@ struct SceneOptions {
     [[nodiscard]] glm::ivec2 pixels() const;  ///< throws UsageError unless "WxH" within 1..16384
     void apply(SettingsSet& settings) const;  ///< preset, then technique, then `set`; throws UsageError or Error
     [[nodiscard]] std::vector<NamedFile> inputs() const;  ///< the files that they name
-    [[nodiscard]] Scene load() const;  ///< with its media and at least one camera, at time 0; throws Error
+    [[nodiscard]] Scene load()
+        const;  ///< with its media and at least one camera, at time 0; throws Error or UsageError
 };
 
 /// From where, and when.
 struct ViewOptions {
     std::optional<std::string> camera;
     std::vector<double> eye, look;
-    std::optional<double> fov;  ///< degrees, vertical
-    double time = 0;            ///< s
+    std::optional<double> fov;   ///< degrees, vertical
+    std::optional<double> time;  ///< s
 
     void add_to(CLI::App& command);
     void check() const;  ///< throws UsageError: what excludes or needs each other, and a view without direction

@@ -1,4 +1,7 @@
+#include <fmt/ranges.h>
+
 #include <algorithm>
+#include <map>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -14,6 +17,8 @@ std::optional<T> by_name(const std::pair<std::string_view, T> (&names)[n], const
         if (known == name) return value;
     return std::nullopt;
 }
+
+constexpr std::string_view flythrough = "flythrough";  // the level's path, which no one plays beside others
 
 constexpr std::pair<std::string_view, Animation::Path> paths[] = {{"translation", Animation::Path::translation},
                                                                   {"rotation", Animation::Path::rotation},
@@ -69,11 +74,37 @@ std::vector<Animation::Place> load_places(const GltfFile& file, const Json& extr
     return places;
 }
 
+/// Of those that play at once.
+void doubt_two_of_a_node(const GltfFile& file, const Scene& scene) {
+    std::map<std::pair<int, Animation::Path>, const Animation*> moved;
+    for (const Animation& animation : scene.animations) {
+        if (animation.name == flythrough) continue;
+        for (const Animation::Channel& channel : animation.channels) {
+            const Animation* other = moved.emplace(std::pair(channel.node, channel.path), &animation).first->second;
+            if (other != &animation)
+                file.doubt(
+                    "animations \"{}\" and \"{}\" move the same node, and the later one wins; --animation NAME "
+                    "plays one",
+                    other->name, animation.name);
+        }
+    }
+}
+
 }  // namespace
 
-void load_animations(const GltfFile& file, const std::vector<int>& nodes, Scene& scene) {
-    for (const tinygltf::Animation& from : file.model().animations) {
-        const std::string what = fmt::format("animation {} \"{}\"", scene.animations.size(), from.name);
+void load_animations(const GltfFile& file, const std::vector<int>& nodes, const std::optional<std::string>& only,
+                     Scene& scene) {
+    const auto& animations = file.model().animations;
+    if (only && std::ranges::find(animations, *only, &tinygltf::Animation::name) == animations.end()) {
+        std::vector<std::string> names;
+        for (const tinygltf::Animation& animation : animations) names.push_back(animation.name);
+        throw UsageError(one_line(fmt::format("animation {}: not in {}, which has {}", *only, file.path().string(),
+                                              names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", ")))));
+    }
+    for (std::size_t i = 0; i < animations.size(); ++i) {
+        const tinygltf::Animation& from = animations[i];
+        if (only && from.name != *only && from.name != flythrough) continue;
+        const std::string what = fmt::format("animation {} \"{}\"", i, from.name);
         Animation to;
         to.name = from.name;
         for (const tinygltf::AnimationChannel& channel : from.channels) {
@@ -88,6 +119,7 @@ void load_animations(const GltfFile& file, const std::vector<int>& nodes, Scene&
         to.places = load_places(file, file.extras(from), what + ": extras.places");
         scene.animations.push_back(std::move(to));
     }
+    doubt_two_of_a_node(file, scene);
     for (Node& node : scene.nodes)
         if (node.parent >= 0 && scene.nodes[static_cast<std::size_t>(node.parent)].dynamic) node.dynamic = true;
 }

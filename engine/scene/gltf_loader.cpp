@@ -115,15 +115,15 @@ void place_in_world(const GltfFile& file, Scene& scene) {
 
 }  // namespace
 
-Scene load_gltf(const std::filesystem::path& path) {
+Scene load_gltf(const std::filesystem::path& path, const std::optional<std::string>& animation) {
     GltfNotes notes;
-    Scene scene = load_gltf(path, notes);
+    Scene scene = load_gltf(path, notes, animation);
     for (const auto& lines : {notes.doubts, notes.left_out})
         for (const std::string& line : lines) spdlog::warn("{}", gltf::one_line(path.string() + ": " + line));
     return scene;
 }
 
-Scene load_gltf(const std::filesystem::path& path, GltfNotes& notes) {
+Scene load_gltf(const std::filesystem::path& path, GltfNotes& notes, const std::optional<std::string>& animation) {
     try {
         const GltfFile file(path);
         Scene scene;
@@ -131,7 +131,7 @@ Scene load_gltf(const std::filesystem::path& path, GltfNotes& notes) {
         gltf::load_materials(file, scene);
         const auto meshes = gltf::load_meshes(file, scene);
         const auto nodes = gltf::load_nodes(file, meshes, scene);
-        gltf::load_animations(file, nodes, scene);
+        gltf::load_animations(file, nodes, animation, scene);
         gltf::load_media(file, scene_extras(file), nodes, scene);
         load_exposure(file, scene);
         end_lamps(scene);

@@ -19,7 +19,9 @@ void load_materials(const GltfFile& file, Scene& scene);
                                           Scene& scene);
 /// The node's emitter, if its extras have one.
 void load_particles(const GltfFile& file, const Json& extras, int node, Scene& scene, const std::string& what);
-void load_animations(const GltfFile& file, const std::vector<int>& nodes, Scene& scene);
+/// `only`: the one that is loaded beside "flythrough"; throws UsageError where there is none of the name.
+void load_animations(const GltfFile& file, const std::vector<int>& nodes, const std::optional<std::string>& only,
+                     Scene& scene);
 /// The media of the scene's extras, then those of nodes' extras, whose places and sizes are the nodes'; the meshes
 /// of these nodes are not drawn. Leaves the scene at time 0.
 void load_media(const GltfFile& file, const Json& scene_extras, const std::vector<int>& nodes, Scene& scene);

@@ -187,8 +187,11 @@ struct GltfNotes {
 
 /// Loads .gltf or .glb. Only files inside the scene's folder are read. Throws Error: path, what, expected. Bad
 /// numbers (NaN, Inf, negative intensity, indices out of range) are errors. What is left out and what looks like a
-/// mistake is logged, once the whole file is found right, or handed over in `notes`.
-[[nodiscard]] Scene load_gltf(const std::filesystem::path& path);
-[[nodiscard]] Scene load_gltf(const std::filesystem::path& path, GltfNotes& notes);
+/// mistake is logged, once the whole file is found right, or handed over in `notes`. Of the animations only the one
+/// that is named is kept, and "flythrough"; throws UsageError where there is none of the name.
+[[nodiscard]] Scene load_gltf(const std::filesystem::path& path,
+                              const std::optional<std::string>& animation = std::nullopt);
+[[nodiscard]] Scene load_gltf(const std::filesystem::path& path, GltfNotes& notes,
+                              const std::optional<std::string>& animation = std::nullopt);
 
 }  // namespace tyndall

@@ -79,7 +79,7 @@ void run(const ReferenceOptions& o) {
     const glm::ivec2 size = o.scene.pixels();
 
     Scene scene = o.scene.load();
-    animate(scene, o.view.time);
+    animate(scene, o.view.time.value_or(0));
     const View view = o.view.view(scene, size);
     if (volumetrics.technique == "off") scene.media.clear();
     const reference::Reference integrator(

@@ -33,9 +33,10 @@ void run(const RenderOptions& o) {
     Session session(o.draw, false);
     session.options.layer = o.layer;
     session.options.count_work = o.stats.has_value();
+    const double last = o.view.time.value_or((o.frames - 1) * o.frame_time);
     for (int left = o.frames - 1; left >= 0; --left) {
         if (o.stats && left == 0) session.timer->set_mode(session.timer_mode());
-        const double time = o.view.time - left * o.frame_time;
+        const double time = last - left * o.frame_time;
         animate(session.scene, time);
         session.draw(o.view.view(session.scene, session.size), time);
     }
@@ -60,7 +61,8 @@ void add_render_command(CLI::App& app) {
         ->capture_default_str();
     command
         ->add_option("--frame-time", o->frame_time,
-                     "seconds from frame to frame, the last is at --time; 0: nothing moves")
+                     "seconds from frame to frame, of which the last is at --time, or without it the first at 0; "
+                     "0: nothing moves")
         ->check(number_in(0, 10))
         ->capture_default_str();
     command->add_option("--layer", o->layer, "what to write")
