@@ -15,10 +15,10 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-constexpr const char* supported_extensions[] = {"KHR_lights_punctual",        "KHR_materials_emissive_strength",
-                                                "KHR_materials_ior",          "KHR_materials_specular",
-                                                "KHR_materials_transmission", "KHR_mesh_quantization",
-                                                "EXT_mesh_gpu_instancing"};
+constexpr const char* supported_extensions[] = {
+    "KHR_lights_punctual",    "KHR_materials_emissive_strength", "KHR_materials_ior",
+    "KHR_materials_specular", "KHR_materials_transmission",      "KHR_materials_unlit",
+    "KHR_mesh_quantization",  "KHR_texture_transform",           "EXT_mesh_gpu_instancing"};
 
 /// Files that the glTF names, read through tinygltf's callbacks, from inside the scene's folder only.
 struct SceneFolder {

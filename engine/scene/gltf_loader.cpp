@@ -135,6 +135,7 @@ Scene load_gltf(const std::filesystem::path& path, GltfNotes& notes, const std::
         gltf::load_media(file, scene_extras(file), nodes, scene);
         load_exposure(file, scene);
         end_lamps(scene);
+        gltf::light_unlit(file, scene);
         gltf::tell_ignored_extras(file);
         gltf::doubt_empty_materials(file, scene);
         if (scene.materials.empty()) scene.materials.emplace_back().name = "default";

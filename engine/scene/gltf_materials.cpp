@@ -17,10 +17,8 @@ class Pictures {
     explicit Pictures(const GltfFile& file) : file_(file) {}
 
     /// The index of a material's picture; -1 where it has none. `opaque`: with an alpha of 1.
-    int index(int texture, int tex_coord, bool opaque, const std::string& what) {
+    int index(int texture, bool opaque, const std::string& what) {
         if (texture == -1) return -1;
-        if (tex_coord != 0)
-            file_.skip("{}: texture coordinates {} are not supported, set 0 is used", what, tex_coord);
         const tinygltf::Texture& from = file_.at(file_.model().textures, texture, what + ": texture");
         (void)file_.at(file_.model().images, from.source, what + ": image");
         const Use use{from.source, sampling(from.sampler, what), opaque};
@@ -171,7 +169,7 @@ Material load_material(const GltfFile& file, const tinygltf::Material& from, Pic
     to.double_sided = from.doubleSided;
 
     const auto texture = [&](const auto& info, const char* slot, bool opaque = false) {
-        return pictures.index(info.index, info.texCoord, opaque, fmt::format("{}: {}", what, slot));
+        return pictures.index(info.index, opaque, fmt::format("{}: {}", what, slot));
     };
     to.base_color_picture = texture(pbr.baseColorTexture, "baseColorTexture", alpha_is_one);
     to.metallic_roughness_picture = texture(pbr.metallicRoughnessTexture, "metallicRoughnessTexture");
@@ -190,6 +188,27 @@ void load_materials(const GltfFile& file, Scene& scene) {
         scene.materials.push_back(load_material(file, from, pictures, what));
     }
     scene.pictures = pictures.decode();
+}
+
+void light_unlit(const GltfFile& file, Scene& scene) {
+    const float white = 1.2f * std::exp2(scene.exposure_ev100);  // cd/m²
+    for (std::size_t i = 0; i < file.model().materials.size(); ++i) {
+        if (!file.model().materials[i].extensions.contains("KHR_materials_unlit")) continue;
+        Material& material = scene.materials[i];
+        material.emissive = white * glm::vec3(material.base_color);
+        material.emissive_picture = material.base_color_picture;
+        material.base_color = glm::vec4(0, 0, 0, material.base_color.a);
+        material.metallic = material.dielectric_f0 = 0;
+        material.normal_picture = material.metallic_roughness_picture = material.occlusion_picture = -1;
+    }
+    for (const Mesh& mesh : scene.meshes) {
+        const auto index = static_cast<std::size_t>(mesh.material);
+        if (index >= file.model().materials.size() ||
+            !file.model().materials[index].extensions.contains("KHR_materials_unlit"))
+            continue;
+        if (std::ranges::any_of(mesh.vertices, [](const Vertex& v) { return glm::vec3(v.color) != glm::vec3(1); }))
+            file.skip("mesh \"{}\": vertex colours of unlit materials are not supported", mesh.name);
+    }
 }
 
 void doubt_empty_materials(const GltfFile& file, const Scene& scene) {

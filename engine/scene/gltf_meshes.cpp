@@ -125,7 +125,15 @@ Mesh load_primitive(const GltfFile& file, const tinygltf::Primitive& from, const
     mesh.material = material(file, from.material, scene, what);
     fill("POSITION", &Vertex::position);
     mesh.indices = load_indices(file, from, mesh.vertices.size(), what);
-    if (from.attributes.contains("TEXCOORD_0")) fill("TEXCOORD_0", &Vertex::uv);
+    const auto textures = from.material == -1 ? std::nullopt : texture_coordinates(file, from.material);
+    const std::string coordinates = fmt::format("TEXCOORD_{}", textures ? textures->set : 0);
+    if (from.attributes.contains(coordinates)) {
+        fill(coordinates.c_str(), &Vertex::uv);
+    } else if (textures) {
+        file.skip("{}: has no {}, textures are read at one point", what, coordinates);
+    }
+    if (textures)
+        for (Vertex& v : mesh.vertices) v.uv = glm::vec2(textures->transform * glm::dvec3(v.uv, 1));
     load_colors(file, from, mesh, what);
     if (from.material >= 0 && scene.materials[static_cast<std::size_t>(mesh.material)].alpha_blend &&
         file.model().materials[static_cast<std::size_t>(from.material)].alphaMode == "OPAQUE")

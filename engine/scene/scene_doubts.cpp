@@ -40,8 +40,9 @@ void doubt_what_is_missing(const Scene& scene, const GltfNotes& notes, Lines& li
         lines.push_back(fmt::format("no light: pictures have the sky's light and what surfaces and media emit{}",
                                     blender ? "; Blender exports lights where Punctual Lights is ticked" : ""));
     if (scene.cameras.empty())
-        lines.push_back(fmt::format("no camera: pictures show the whole scene from a place that is chosen{}",
-                                    blender ? "; Blender exports cameras where Cameras is ticked" : ""));
+        lines.push_back(
+            fmt::format("no perspective camera: pictures show the whole scene from a place that is chosen{}",
+                        blender ? "; Blender exports cameras where Cameras is ticked" : ""));
     if (scene.meshes.empty()) lines.push_back("no triangles: nothing but sky and fog is seen");
     if (!blender) return;
     std::vector<bool> parent(scene.nodes.size());

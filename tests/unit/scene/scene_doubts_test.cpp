@@ -56,7 +56,8 @@ TEST_F(SceneDoubts, ASoundSceneHasNone) {
 TEST_F(SceneDoubts, NoLightNoCameraNothingToSee) {
     GltfBuilder b;
     b.doc["scenes"] = {json::object()};
-    EXPECT_THAT(doubts(b), ElementsAre(HasSubstr("no light"), HasSubstr("no camera"), HasSubstr("no triangles")));
+    EXPECT_THAT(doubts(b),
+                ElementsAre(HasSubstr("no light"), HasSubstr("no perspective camera"), HasSubstr("no triangles")));
     blender(b);
     EXPECT_THAT(doubts(b), ElementsAre(HasSubstr("Punctual Lights is ticked"), HasSubstr("Cameras is ticked"),
                                        HasSubstr("no triangles")));
