@@ -39,12 +39,17 @@ void doubt_what_is_missing(const Scene& scene, const GltfNotes& notes, Lines& li
     if (lit_white(scene) == 0)
         lines.push_back(fmt::format("no light: pictures have the sky's light and what surfaces and media emit{}",
                                     blender ? "; Blender exports lights where Punctual Lights is ticked" : ""));
+    const bool orthographic = std::ranges::any_of(
+        notes.left_out, [](const std::string& line) { return line.find("orthographic") != std::string::npos; });
     if (scene.cameras.empty())
         lines.push_back(
             fmt::format("no perspective camera: pictures show the whole scene from a place that is chosen{}",
-                        blender ? "; Blender exports cameras where Cameras is ticked" : ""));
+                        blender && !orthographic ? "; Blender exports cameras where Cameras is ticked" : ""));
     if (scene.meshes.empty()) lines.push_back("no triangles: nothing but sky and fog is seen");
     if (!blender) return;
+    if (scene.media.empty())
+        lines.push_back(
+            "no media: Blender exports custom properties, which hold fog, where Custom Properties is ticked");
     std::vector<bool> parent(scene.nodes.size());
     for (const Node& node : scene.nodes)
         if (node.parent >= 0) parent[static_cast<std::size_t>(node.parent)] = true;
@@ -87,8 +92,8 @@ void doubt_units(const Scene& scene, const GltfNotes& notes, Lines& lines) {
     });
     if (!dim_suns.empty())
         lines.push_back(fmt::format(
-            "suns of less than 100 lx: {}; daylight has 1000 to 100000 lx, a full moon 0.3; are they in lx?",
-            dim_suns));
+            "suns of less than 100 lx: {}; daylight has 1000 to 100000 lx, a full moon 0.3; are they in lx?{}",
+            dim_suns, hint));
 }
 
 void doubt_exposure(const Scene& scene, const GltfNotes& notes, Lines& lines) {

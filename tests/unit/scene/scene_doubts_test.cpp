@@ -35,7 +35,11 @@ class SceneDoubts : public SceneFolderTest {
     }
     static json& lights(GltfBuilder& b) { return b.doc["extensions"]["KHR_lights_punctual"]["lights"]; }
     static json& scene_extras(GltfBuilder& b) { return b.doc["scenes"][0]["extras"]; }
-    static void blender(GltfBuilder& b) { b.doc["asset"]["generator"] = "Khronos glTF Blender I/O v3.4.50"; }
+    /// From Blender, with fog.
+    static void blender(GltfBuilder& b) {
+        b.doc["asset"]["generator"] = "Khronos glTF Blender I/O v3.4.50";
+        scene_extras(b)["media"] = {{{"shape", "global"}, {"scattering", {0.1, 0.1, 0.1}}}};
+    }
 
     [[nodiscard]] std::vector<std::string> doubts(const GltfBuilder& b) const {
         GltfNotes notes;
@@ -61,6 +65,13 @@ TEST_F(SceneDoubts, NoLightNoCameraNothingToSee) {
     blender(b);
     EXPECT_THAT(doubts(b), ElementsAre(HasSubstr("Punctual Lights is ticked"), HasSubstr("Cameras is ticked"),
                                        HasSubstr("no triangles")));
+    scene_extras(b).clear();
+    EXPECT_THAT(doubts(b), testing::Contains(HasSubstr("Custom Properties is ticked")));
+    GltfBuilder flat = sound();
+    blender(flat);
+    flat.doc["cameras"] = {
+        {{"type", "orthographic"}, {"orthographic", {{"xmag", 1}, {"ymag", 1}, {"zfar", 9}, {"znear", 0}}}}};
+    EXPECT_THAT(doubts(flat), ElementsAre(testing::EndsWith("from a place that is chosen")));
     GltfBuilder dark = sound();
     lights(dark)[0]["intensity"] = 0;
     EXPECT_THAT(doubts(dark), ElementsAre(HasSubstr("no light")));
