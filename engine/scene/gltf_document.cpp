@@ -142,9 +142,21 @@ constexpr Row rows[] = {
     {"bufferViews[].byteOffset", Kind::whole},
     {"bufferViews[].byteLength", Kind::whole},
     {"bufferViews[].byteStride", Kind::whole},
+    {"bufferViews[].extensions", Kind::object},
+    {"bufferViews[].extensions.EXT_meshopt_compression", Kind::object},
+    {"bufferViews[].extensions.EXT_meshopt_compression.buffer", Kind::whole},
+    {"bufferViews[].extensions.EXT_meshopt_compression.byteOffset", Kind::whole},
+    {"bufferViews[].extensions.EXT_meshopt_compression.byteLength", Kind::whole},
+    {"bufferViews[].extensions.EXT_meshopt_compression.byteStride", Kind::whole},
+    {"bufferViews[].extensions.EXT_meshopt_compression.count", Kind::whole},
+    {"bufferViews[].extensions.EXT_meshopt_compression.mode", Kind::text},
+    {"bufferViews[].extensions.EXT_meshopt_compression.filter", Kind::text},
     {"buffers", Kind::list},
     {"buffers[].byteLength", Kind::whole},
     {"buffers[].uri", Kind::text},
+    {"buffers[].extensions", Kind::object},
+    {"buffers[].extensions.EXT_meshopt_compression", Kind::object},
+    {"buffers[].extensions.EXT_meshopt_compression.fallback", Kind::flag},
     {"images", Kind::list},
     {"images[].name", Kind::text},
     {"images[].uri", Kind::text},
@@ -232,10 +244,22 @@ void check(const Json& json, std::string_view path, Kind kind, const std::string
     check(json[key], path.substr(key.size()), kind, where.empty() ? key : where + "." + key, fail);
 }
 
+/// A buffer without data, for readers that do not know EXT_meshopt_compression.
+bool is_fallback(const Json& buffer) {
+    return !buffer.contains("uri") &&
+           buffer.value(Json::json_pointer("/extensions/EXT_meshopt_compression/fallback"), false);
+}
+
 /// Says otherwise what a file says rightly and tinygltf misunderstands: "+" in a URI, which it takes for a space,
-/// and skins without matrices, which it refuses. Whether there was any.
+/// skins without matrices and buffers without data, which it refuses. Whether there was any.
 bool say_otherwise(Json& document) {
     bool any = false;
+    if (document.contains("buffers"))
+        for (Json& buffer : document["buffers"])
+            if (is_fallback(buffer)) {
+                buffer = {{"uri", "data:application/octet-stream;base64,AA=="}, {"byteLength", 1}};
+                any = true;
+            }
     if (document.contains("skins"))
         for (Json& skin : document["skins"]) any = skin.emplace("inverseBindMatrices", -1).second || any;
     for (const char* list : {"buffers", "images"}) {

@@ -9,16 +9,18 @@
 
 #include "engine/core/files.h"
 #include "engine/scene/gltf_document.h"
+#include "engine/scene/gltf_meshopt.h"
 
 namespace tyndall::gltf {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-constexpr const char* supported_extensions[] = {
-    "KHR_lights_punctual",    "KHR_materials_emissive_strength", "KHR_materials_ior",
-    "KHR_materials_specular", "KHR_materials_transmission",      "KHR_materials_unlit",
-    "KHR_mesh_quantization",  "KHR_texture_transform",           "EXT_mesh_gpu_instancing"};
+constexpr const char* supported_extensions[] = {"KHR_lights_punctual",        "KHR_materials_emissive_strength",
+                                                "KHR_materials_ior",          "KHR_materials_specular",
+                                                "KHR_materials_transmission", "KHR_materials_unlit",
+                                                "KHR_mesh_quantization",      "KHR_texture_transform",
+                                                "EXT_mesh_gpu_instancing",    "EXT_meshopt_compression"};
 
 /// Files that the glTF names, read through tinygltf's callbacks, from inside the scene's folder only.
 struct SceneFolder {
@@ -119,6 +121,37 @@ GltfFile::GltfFile(std::filesystem::path path) : path_(std::move(path)) {
     if (!model_.asset.version.starts_with("2.")) fail("glTF version {}, 2.0 expected", model_.asset.version);
     const std::string& least = model_.asset.minVersion;
     if (!least.empty() && least != "2.0") fail("asks for glTF {} at least, 2.0 is supported", least);
+    decompress_views();
+}
+
+void GltfFile::decompress_views() {
+    constexpr const char* name = "EXT_meshopt_compression";
+    for (std::size_t i = 0; i < model_.bufferViews.size(); ++i) {
+        const tinygltf::BufferView& view = model_.bufferViews[i];
+        if (!view.extensions.contains(name)) continue;
+        const std::string what = fmt::format("buffer view {}: {}", i, name);
+        const auto whole = [&](const char* key) -> std::size_t {
+            const tinygltf::Value* value = extension(view, name, key);
+            const double number = value == nullptr ? 0 : value->GetNumberAsDouble();
+            if (!(number >= 0)) fail("{}: {} {} given, 0 or more expected", what, key, number);
+            return static_cast<std::size_t>(number);
+        };
+        const auto text = [&](const char* key, const char* otherwise) {
+            const tinygltf::Value* value = extension(view, name, key);
+            return value == nullptr ? otherwise : value->Get<std::string>();
+        };
+        const std::size_t offset = whole("byteOffset"), length = whole("byteLength");
+        const Bytes& data = at(model_.buffers, static_cast<int>(whole("buffer")), what + ": buffer").data;
+        if (offset > data.size() || length > data.size() - offset)
+            fail("{}: ends outside its buffer of {} bytes", what, data.size());
+        decompressed_[static_cast<int>(i)] =
+            decode_meshopt(std::span(data).subspan(offset, length),
+                           {.mode = text("mode", "none"),
+                            .filter = text("filter", "NONE"),
+                            .count = whole("count"),
+                            .stride = whole("byteStride")},
+                           [&](const std::string& wrong) { fail("{}: {}", what, wrong); });
+    }
 }
 
 void GltfFile::check_extensions() const {
@@ -158,6 +191,10 @@ glm::quat GltfFile::quaternion(glm::vec4 xyzw, const std::string& what) const {
 
 std::span<const std::uint8_t> GltfFile::view_bytes(int index, std::size_t offset, const std::string& what) const {
     const tinygltf::BufferView& view = at(model_.bufferViews, index, what + ": buffer view");
+    if (const auto found = decompressed_.find(index); found != decompressed_.end()) {
+        if (offset > found->second.size()) fail("{}: starts outside its buffer view {}", what, index);
+        return std::span(found->second).subspan(offset);
+    }
     const Bytes& data = at(model_.buffers, view.buffer, what + ": buffer").data;
     if (view.byteOffset > data.size() || view.byteLength > data.size() - view.byteOffset)
         fail("{}: buffer view {} ends outside its buffer of {} bytes", what, index, data.size());

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <span>
@@ -103,6 +104,7 @@ class GltfFile {
 
   private:
     void check_extensions() const;
+    void decompress_views();
     template <class Visit>
     void visit(int view, std::size_t offset, std::size_t count, std::size_t size, const std::string& what,
                Visit element) const;
@@ -112,7 +114,8 @@ class GltfFile {
 
     std::filesystem::path path_;
     tinygltf::Model model_;
-    mutable std::set<std::string> skipped_, doubts_;  ///< notes of what was read, not of the file
+    std::map<int, std::vector<std::uint8_t>> decompressed_;  ///< what EXT_meshopt_compression has in buffer views
+    mutable std::set<std::string> skipped_, doubts_;         ///< notes of what was read, not of the file
 };
 
 }  // namespace tyndall::gltf

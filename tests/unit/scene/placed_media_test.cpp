@@ -62,7 +62,7 @@ void expect_same(const Medium& a, const Medium& b) {
     EXPECT_EQ(a.center_at_start, b.center_at_start);
 }
 
-const json fog =
+const json room_fog =
     json::parse(R"({"scattering":[0.1,0.2,0.3], "absorption":[0.01,0,0], "anisotropy":0.4, "emission":[1,0,2],
     "softness":0.25, "noise":{"scale":1.5,"amount":0.6,"seed":7}, "height":{"base":0.5,"falloff":1.2}})");
 const json turned = {{"translation", {1, 2, 3}}, {"rotation", {0, 0.6, 0, 0.8}}, {"scale", {2, 1, 0.5}}};
@@ -70,24 +70,24 @@ const json turned = {{"translation", {1, 2, 3}}, {"rotation", {0, 0.6, 0, 0.8}},
 TEST_F(PlacedMedia, IsTheSameMediumWrittenByHand) {
     const std::tuple<json, json, json> cases[] = {
         // An empty is 2 m wide, high and deep. The shape is a box where none is given.
-        {fog,
+        {room_fog,
          turned,
          {{"shape", "box"}, {"center", {1, 2, 3}}, {"size", {4, 2, 1}}, {"rotation", {0, 0.6, 0, 0.8}}}},
-        {with(fog, {{"shape", "ellipsoid"}}),
+        {with(room_fog, {{"shape", "ellipsoid"}}),
          turned,
          {{"shape", "ellipsoid"}, {"center", {1, 2, 3}}, {"radii", {2, 1, 0.5}}, {"rotation", {0, 0.6, 0, 0.8}}}},
-        {with(fog, {{"shape", "sphere"}}),
+        {with(room_fog, {{"shape", "sphere"}}),
          {{"translation", {0, 1, 0}}, {"scale", {3, 3, 3}}},
          {{"shape", "sphere"}, {"center", {0, 1, 0}}, {"radius", 3}}},
         // A mirrored one is as large as it is.
-        {with(fog, {{"shape", "box"}}),
+        {with(room_fog, {{"shape", "box"}}),
          {{"scale", {-1, 2, 3}}},
          {{"shape", "box"}, {"center", {0, 0, 0}}, {"size", {2, 4, 6}}}},
     };
     for (const auto& [medium, node, place] : cases) {
         SCOPED_TRACE(place.dump());
         const Scene by_node = load(placed(medium, node)), by_text = load(placed(medium.dump(), node));
-        const Medium by_hand = parse_media(json::array({with(fog, place)}), "fog.json", ".").at(0);
+        const Medium by_hand = parse_media(json::array({with(room_fog, place)}), "fog.json", ".").at(0);
         ASSERT_EQ(by_node.media.size(), 1u);
         expect_same(by_node.media[0], by_hand);
         expect_same(by_text.media.at(0), by_hand);
@@ -102,7 +102,7 @@ TEST_F(PlacedMedia, AMeshSaysWhereAndIsNotDrawn) {
     const int corners = b.accessor<float>({-1, 0, -3, 3, 2, 3, 0, 1, 0}, GltfBuilder::f32, "VEC3");
     b.doc["meshes"].push_back({{"primitives", {{{"attributes", {{"POSITION", corners}}}}}}});
     b.doc["nodes"][0]["mesh"] = 1;
-    b.doc["nodes"][0]["extras"]["medium"] = fog;
+    b.doc["nodes"][0]["extras"]["medium"] = room_fog;
     b.doc["scenes"][0]["extras"]["media"] = {{{"shape", "global"}, {"scattering", {1, 1, 1}}}};
     const Scene scene = load(b);
     ASSERT_EQ(scene.media.size(), 2u);  // behind those of the scene
@@ -113,7 +113,7 @@ TEST_F(PlacedMedia, AMeshSaysWhereAndIsNotDrawn) {
 }
 
 TEST_F(PlacedMedia, InAChainOfParents) {
-    GltfBuilder b = placed(fog, {{"name", "fog"}, {"translation", {1, 0, 0}}, {"rotation", {0, 0, 0.6, 0.8}}});
+    GltfBuilder b = placed(room_fog, {{"name", "fog"}, {"translation", {1, 0, 0}}, {"rotation", {0, 0, 0.6, 0.8}}});
     b.doc["nodes"].push_back({{"children", {0}}, {"translation", {0, 5, 0}}, {"scale", {2, 2, 2}}});
     b.doc["scenes"][0]["nodes"] = {1};
     const Medium medium = load(b).media.at(0);
@@ -141,26 +141,26 @@ TEST_F(PlacedMedia, AGridInItsNode) {
 
 TEST_F(PlacedMedia, WhatIsWrongIsNamed) {
     const auto node = [](const json& more = json::object()) { return with({{"name", "fog"}}, more); };
-    expect_error(placed(with(fog, {{"shape", "sphere"}}), node(turned)),
+    expect_error(placed(with(room_fog, {{"shape", "sphere"}}), node(turned)),
                  "radii of 2 1 0.5 m of the sphere, an ellipsoid");
-    expect_error(placed(with(fog, {{"shape", "global"}}), node()), ".shape: \"global\" given");
-    expect_error(placed(with(fog, {{"shape", 3}}), node()), ".shape: 3 given");
-    expect_error(placed(with(fog, {{"center", {0, 0, 0}}}), node()), ".center: none expected");
-    expect_error(placed(with(fog, {{"softness", -1}}), node()), ".softness: -1 given");
-    expect_error(placed(with(fog, {{"colour", 1}}), node()), "unknown key \"colour\"");
-    expect_error(placed(fog, node({{"scale", {1, 0, 1}}})), "a scale of 0");
-    expect_error(placed(fog, node({{"scale", {1, 1e-9, 1}}})), ".size[1]: ");
+    expect_error(placed(with(room_fog, {{"shape", "global"}}), node()), ".shape: \"global\" given");
+    expect_error(placed(with(room_fog, {{"shape", 3}}), node()), ".shape: 3 given");
+    expect_error(placed(with(room_fog, {{"center", {0, 0, 0}}}), node()), ".center: none expected");
+    expect_error(placed(with(room_fog, {{"softness", -1}}), node()), ".softness: -1 given");
+    expect_error(placed(with(room_fog, {{"colour", 1}}), node()), "unknown key \"colour\"");
+    expect_error(placed(room_fog, node({{"scale", {1, 0, 1}}})), "a scale of 0");
+    expect_error(placed(room_fog, node({{"scale", {1, 1e-9, 1}}})), ".size[1]: ");
     expect_error(placed("{", node()), "the text is not valid JSON");
     expect_error(placed("[]", node()), "[] given, an object");
     expect_error(placed(5, node()), "5 given, an object");
-    GltfBuilder b = placed(fog, node());
+    GltfBuilder b = placed(room_fog, node());
     b.doc["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"]["TRANSLATION"] =
         b.accessor<float>({0, 0, 0}, GltfBuilder::f32, "VEC3");
     expect_error(b, "skin or instances");
 }
 
 TEST_F(PlacedMedia, StaysWhereItsNodeBegins) {
-    GltfBuilder b = placed(fog, {{"name", "fog"}, {"translation", {9, 9, 9}}});
+    GltfBuilder b = placed(room_fog, {{"name", "fog"}, {"translation", {9, 9, 9}}});
     const int times = b.accessor<float>({0, 1}, GltfBuilder::f32, "SCALAR"),
               places = b.accessor<float>({1, 0, 0, 5, 0, 0}, GltfBuilder::f32, "VEC3");
     b.doc["animations"] = {{{"samplers", {{{"input", times}, {"output", places}}}},
