@@ -133,7 +133,9 @@ void GltfFile::decompress_views() {
         const auto whole = [&](const char* key) -> std::size_t {
             const tinygltf::Value* value = extension(view, name, key);
             const double number = value == nullptr ? 0 : value->GetNumberAsDouble();
-            if (!(number >= 0)) fail("{}: {} {} given, 0 or more expected", what, key, number);
+            constexpr double most = std::numeric_limits<std::uint32_t>::max();
+            if (!(number >= 0 && number <= most))
+                fail("{}: {} {} given, 0 to {} expected", what, key, number, most);
             return static_cast<std::size_t>(number);
         };
         const auto text = [&](const char* key, const char* otherwise) {

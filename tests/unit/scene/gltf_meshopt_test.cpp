@@ -119,6 +119,7 @@ TEST_F(GltfMeshopt, WhatIsWrongIsNamed) {
         {"count", 2'000'000'000, "count 2000000000 does not fit"},
         {"count", 0, "count 0"},
         {"count", -1, "count -1"},
+        {"count", 1e300, "count 1e+300"},
         {"buffer", 7, "buffer 7 does not exist"},
         {"byteLength", 100'000, "ends outside its buffer"},
         {"byteLength", 10, "10 bytes that are no 3 ATTRIBUTES"},
