@@ -37,7 +37,7 @@ float lit_white(const Scene& scene) {
 void doubt_what_is_missing(const Scene& scene, const GltfNotes& notes, Lines& lines) {
     const bool blender = from_blender(notes);
     if (lit_white(scene) == 0)
-        lines.push_back(fmt::format("no light: pictures have the sky's light and what surfaces and media emit{}",
+        lines.push_back(fmt::format("no light: it is night, but for what surfaces and media emit{}",
                                     blender ? "; Blender exports lights where Punctual Lights is ticked" : ""));
     const bool orthographic = std::ranges::any_of(
         notes.left_out, [](const std::string& line) { return line.find("orthographic") != std::string::npos; });
