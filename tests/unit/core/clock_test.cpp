@@ -42,7 +42,7 @@ TEST(Input, BeginPollForgetsEdgesAndKeepsLevels) {
     input.scroll = 1;
     input.text = "x";
     input.press_modifiers = Input::Modifiers{true, true, true};
-    input.gamepad = {true, {1, 0}, {0, 1}, true, true, true, 1, 1};
+    input.gamepad = {true, {1, 0}, {0, 1}, true, true, true, 1, 1, {}};
     input.begin_poll();
     EXPECT_TRUE(input.down(Key::a));
     EXPECT_FALSE(input.pressed(Key::a));
