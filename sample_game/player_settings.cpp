@@ -18,8 +18,8 @@ const SettingsTable& player_settings_table() {
             .real(&S::field_of_view,
                   {"field_of_view", "Field of view", "Height of what one sees, as an angle.", "degrees"}, 40, 100)
             .real(&S::look_speed,
-                  {"look_speed", "Look speed", "How fast pointer, right stick and arrow keys turn the view."}, 0.2, 5,
-                  SettingScale::logarithmic)
+                  {"look_speed", "Look speed", "How fast pointer, right stick and arrow keys turn the view."}, 0.2,
+                  5, SettingScale::logarithmic)
             .boolean(&S::invert_look, {"invert_look", "Invert look", "Forward and down look up."},
                      SettingEffect::uniform)
             .boolean(&S::full_screen, {"full_screen", "Full screen", "The window fills the monitor."},

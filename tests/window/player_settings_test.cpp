@@ -29,7 +29,8 @@ TEST(PlayerSettings, AreReadAsTheyWereKept) {
 TEST(PlayerSettings, OddFilesAreErrorsThatNameThem) {
     const TemporaryFolder folder;
     const std::filesystem::path path = folder / "player.json";
-    for (const char* text : {"", "[1]", R"({"field_of_view": 500})", R"({"quality": "best"})", R"({"height": 2})"}) {
+    for (const char* text :
+         {"", "[1]", R"({"field_of_view": 500})", R"({"quality": "best"})", R"({"height": 2})"}) {
         write_text(path, text);
         try {
             (void)load_player_settings(path);
