@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "bench/machine.h"
-#include "engine/core/files.h"
+#include "engine/scene/data_root.h"
 
 namespace tyndall::bench {
 

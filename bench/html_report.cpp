@@ -8,6 +8,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/files.h"
+#include "engine/scene/data_root.h"
 
 namespace tyndall::bench {
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "engine/core/files.h"
+#include "engine/scene/data_root.h"
 
 namespace tyndall::bench {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "engine/core/check.h"
-#include "engine/core/files.h"
 #include "engine/render/frame_facts.h"
+#include "engine/scene/data_root.h"
 #include "session/session.h"
 
 namespace tyndall::bench {

@@ -7,7 +7,7 @@
 
 #include "bench/errors.h"
 #include "bench/pictures.h"
-#include "engine/core/files.h"
+#include "engine/scene/data_root.h"
 
 namespace tyndall::bench {
 namespace {

@@ -12,6 +12,7 @@
 #include "bench/sequence_reports.h"
 #include "engine/core/files.h"
 #include "engine/core/image_metrics.h"
+#include "engine/scene/data_root.h"
 
 namespace tyndall::bench {
 namespace {

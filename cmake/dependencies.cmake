@@ -13,7 +13,7 @@ add_custom_command(
           --extensions ${PROJECT_SOURCE_DIR}/cmake/gl_extensions.txt --out-path ${GLAD_DIR} c
   DEPENDS ${PROJECT_SOURCE_DIR}/cmake/gl_extensions.txt VERBATIM)
 add_library(glad ${GLAD_DIR}/src/gl.c ${GLAD_DIR}/include/glad/gl.h)
-target_include_directories(glad SYSTEM PUBLIC ${GLAD_DIR}/include)
+target_include_directories(glad SYSTEM PUBLIC $<BUILD_INTERFACE:${GLAD_DIR}/include>)
 target_link_libraries(glad PUBLIC ${CMAKE_DL_LIBS})
 
 if(TYNDALL_GAME)

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <iterator>
 
-#include "engine/core/files.h"
+#include "engine/scene/data_root.h"
 
 namespace tyndall {
 namespace {

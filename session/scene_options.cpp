@@ -11,6 +11,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/files.h"
+#include "engine/scene/data_root.h"
 #include "session/number_option.h"
 
 namespace tyndall {

@@ -3,8 +3,8 @@
 #include <CLI/CLI.hpp>
 #include <utility>
 
-#include "engine/core/files.h"
 #include "engine/core/log.h"
+#include "engine/scene/data_root.h"
 #include "engine/shader/build_time.h"
 
 namespace tyndall {

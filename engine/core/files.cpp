@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
-#include <cstdlib>
 #include <cstring>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -98,16 +97,6 @@ void write_text(const fs::path& path, const std::string& text) {
     OutputFiles files;
     files.add(path, text);
     files.commit();
-}
-
-fs::path data_root() {
-    const char* chosen = std::getenv("TYNDALL_DATA");
-    fs::path root = chosen != nullptr ? chosen : TYNDALL_SOURCE_DIR;
-    if (!fs::is_directory(root / "shaders")) {
-        throw Error(fmt::format("{}: no folder shaders/ here; set TYNDALL_DATA to the folder that holds it",
-                                root.string()));
-    }
-    return root;
 }
 
 fs::path resolve_inside(const fs::path& folder, const std::string& uri) {

@@ -18,9 +18,6 @@ namespace tyndall {
 /// A failure leaves neither a partial file nor a changed old one (output_files.h).
 void write_text(const std::filesystem::path& path, const std::string& text);
 
-/// The folder that holds shaders/ and assets/: $TYNDALL_DATA, else the source folder the build was made from.
-[[nodiscard]] std::filesystem::path data_root();
-
 /// `uri` (already percent-decoded) relative to `folder`; throws Error if it is absolute, has a scheme or leaves
 /// the folder (also through symbolic links).
 [[nodiscard]] std::filesystem::path resolve_inside(const std::filesystem::path& folder, const std::string& uri);

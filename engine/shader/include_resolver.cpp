@@ -28,13 +28,11 @@ std::optional<std::string> included_path(std::string_view line) {
 
 class Resolver {
   public:
-    Resolver(const std::filesystem::path& root, std::vector<std::filesystem::path>& files)
-        : root_(root), files_(files) {}
+    Resolver(const Roots& roots, std::vector<std::filesystem::path>& files) : roots_(roots), files_(files) {}
 
     void append(const std::string& path, const std::string& asked_by) {
         seen_.insert(path);
         const std::size_t number = files_.size();
-        files_.push_back(root_ / path);
         std::istringstream text(load(path, asked_by));
         out_ += fmt::format("#line 1 {}\n", number);
         std::string line;
@@ -53,15 +51,18 @@ class Resolver {
     std::string text() && { return std::move(out_); }
 
   private:
-    std::string load(const std::string& path, const std::string& asked_by) const {
+    std::string load(const std::string& path, const std::string& asked_by) {
+        const std::size_t number = files_.size();
         try {
-            return read_text(root_ / path);
+            files_.push_back(roots_.find(path));
+            return read_text(files_.back());
         } catch (const Error& error) {
+            if (files_.size() == number) files_.push_back(roots_.first(path));  // may come yet
             throw Error(fmt::format("{}shader file '{}' cannot be read: {}", asked_by, path, error.what()));
         }
     }
 
-    const std::filesystem::path& root_;
+    const Roots& roots_;
     std::vector<std::filesystem::path>& files_;
     std::set<std::string> seen_;
     std::string out_;
@@ -69,10 +70,10 @@ class Resolver {
 
 }  // namespace
 
-std::string resolve_includes(const std::filesystem::path& root, const std::string& path,
+std::string resolve_includes(const Roots& roots, const std::string& path,
                              std::vector<std::filesystem::path>* files) {
     std::vector<std::filesystem::path> own;
-    Resolver resolver(root, files != nullptr ? *files : own);
+    Resolver resolver(roots, files != nullptr ? *files : own);
     resolver.append(path, "");
     return std::move(resolver).text();
 }

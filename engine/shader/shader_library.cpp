@@ -78,7 +78,7 @@ std::string complete_source(const std::string& resolved, const Permutation& perm
 
 /// Turns "0:30037(12): error" (Mesa), "2(30037) : error" (NVIDIA) and "ERROR: 2:30037:" (AMD, Intel) into
 /// "path:37: error".
-std::string with_file_names(const std::string& log, const std::vector<fs::path>& files, const fs::path& root) {
+std::string with_file_names(const std::string& log, const std::vector<fs::path>& files, const Roots& roots) {
     static const std::regex place(R"(^(?:ERROR: |WARNING: )?\d+[:(](\d{1,9})\)?(?:\(\d+\))?\s*:\s*(.*)$)");
     std::istringstream lines(log);
     std::string result, line;
@@ -87,8 +87,8 @@ std::string with_file_names(const std::string& log, const std::vector<fs::path>&
         if (std::regex_match(line, match, place)) {
             const unsigned long number = std::stoul(match[1]), file = number / lines_per_file;
             if (file >= 1 && file <= files.size())
-                line = fmt::format("{}:{}: {}", files[file - 1].lexically_relative(root).string(),
-                                   number % lines_per_file, match[2].str());
+                line = fmt::format("{}:{}: {}", roots.name_of(files[file - 1]), number % lines_per_file,
+                                   match[2].str());
         }
         result += (result.empty() ? "" : "\n") + line;
     }
@@ -134,7 +134,7 @@ struct ShaderLibrary::Entry {
         return std::ranges::any_of(files, [](const auto& file) { return time_of(file.first) != file.second; });
     }
 
-    void build(const fs::path& root) {
+    void build(const Roots& roots) {
         const BuildTimer timer;
         std::vector<fs::path> read;
         const auto watch = [&] {
@@ -144,7 +144,7 @@ struct ShaderLibrary::Entry {
         try {
             for (const ProgramDesc::Stage& stage : desc.stages)
                 sources.push_back(
-                    {stage.stage, complete_source(resolve_includes(root, stage.path, &read), permutation)});
+                    {stage.stage, complete_source(resolve_includes(roots, stage.path, &read), permutation)});
         } catch (const Error&) {
             watch();  // the file that is missing, too
             throw;
@@ -153,12 +153,12 @@ struct ShaderLibrary::Entry {
         try {
             program = gl::Program(sources, key_of(desc, permutation));
         } catch (const Error& failure) {
-            throw Error(one_line(with_file_names(failure.what(), read, root)));
+            throw Error(one_line(with_file_names(failure.what(), read, roots)));
         }
     }
 };
 
-ShaderLibrary::ShaderLibrary(fs::path root) : root_(std::move(root)) {}
+ShaderLibrary::ShaderLibrary(Roots roots) : roots_(std::move(roots)) {}
 ShaderLibrary::~ShaderLibrary() = default;
 std::size_t ShaderLibrary::program_count() const {
     return entries_.size();
@@ -172,7 +172,7 @@ const gl::Program& ShaderLibrary::get(const ProgramDesc& desc, const Permutation
     }
     check_permutation(desc, permutation);
     auto entry = std::unique_ptr<Entry>(new Entry{desc, permutation, {}, {}, {}});
-    entry->build(root_);
+    entry->build(roots_);
     return entries_.emplace(key, std::move(entry)).first->second->program;
 }
 
@@ -186,7 +186,7 @@ int ShaderLibrary::reload_changed() {
     for (const auto& [key, entry] : entries_) {
         if (!entry->changed()) continue;
         try {
-            entry->build(root_);
+            entry->build(roots_);
             entry->error.clear();
             ++rebuilt;
         } catch (const Error& failure) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/core/roots.h"
 #include "engine/gl/program.h"
 
 namespace tyndall {
@@ -35,19 +36,19 @@ struct ProgramDesc {
 /// All valid combinations of the axes' values.
 [[nodiscard]] std::vector<Permutation> all_permutations(const ProgramDesc& desc);
 
-/// The text of `path` with its `#include "shaders/…"` lines resolved against `root` (each file once, whether or not
-/// an #if surrounds it; so there are no cycles). Other #include lines stay. Directives `#line N F` let the
+/// The text of `path` with its `#include "shaders/…"` lines resolved against `roots` (each file once, whether or
+/// not an #if surrounds it; so there are no cycles). Other #include lines stay. Directives `#line N F` let the
 /// compiler's messages name a file: F is its index in `files`, to which every file asked for is appended. Throws
 /// Error for a missing file, naming the includer and its line.
-[[nodiscard]] std::string resolve_includes(const std::filesystem::path& root, const std::string& path,
+[[nodiscard]] std::string resolve_includes(const Roots& roots, const std::string& path,
                                            std::vector<std::filesystem::path>* files = nullptr);
 
 /// Compiles programs on first use and keeps them. A declared program is found by reference: the desc must outlive
 /// the library's use of it (they are static constants beside the pass that uses them).
 class ShaderLibrary {
   public:
-    /// `root` is the folder that contains shaders/.
-    explicit ShaderLibrary(std::filesystem::path root);
+    /// `roots` are the folders that contain shaders/, a host's own first.
+    explicit ShaderLibrary(Roots roots);
 
     /// Every axis of `desc` must be given a declared value, and no other define may be (failed check otherwise).
     /// Throws Error with the compiler's message on the first failure to build.
@@ -58,10 +59,11 @@ class ShaderLibrary {
     int reload_changed();
     [[nodiscard]] const std::vector<std::string>& errors() const { return errors_; }
     [[nodiscard]] std::size_t program_count() const;
+    [[nodiscard]] const Roots& roots() const { return roots_; }
 
   private:
     struct Entry;
-    std::filesystem::path root_;
+    Roots roots_;
     std::map<std::string, std::unique_ptr<Entry>> entries_;
     std::vector<std::string> errors_;
     double last_look_ = 0;

@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "engine/core/error.h"
-#include "engine/core/files.h"
+#include "engine/scene/data_root.h"
 #include "sample_game/commands/commands.h"
 #include "session/session.h"
 #include "volumetrics/technique.h"

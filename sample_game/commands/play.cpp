@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "engine/core/error.h"
-#include "engine/core/files.h"
+#include "engine/scene/data_root.h"
 #include "sample_game/commands/commands.h"
 #include "sample_game/flythrough.h"
 #include "sample_game/game.h"

@@ -6,8 +6,8 @@
 #include <algorithm>
 
 #include "engine/core/error.h"
-#include "engine/core/files.h"
 #include "engine/render/renderer.h"
+#include "engine/scene/data_root.h"
 #include "support/gl_test.h"
 #include "support/test_scene.h"
 

@@ -7,6 +7,7 @@
 #include "engine/gl/state.h"
 #include "engine/gl/vertex_array.h"
 #include "engine/gl/work_counters.h"
+#include "engine/scene/data_root.h"
 #include "engine/shader/shader_library.h"
 #include "tests/gpu/support/gl_test.h"
 #include "tests/support/temp_root.h"

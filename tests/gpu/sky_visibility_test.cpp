@@ -10,10 +10,10 @@
 #include <random>
 
 #include "adapter/volumetrics_adapter.h"
-#include "engine/core/files.h"
 #include "engine/render/passes/sky.h"
 #include "engine/render/passes/sky_volume.h"
 #include "engine/render/renderer.h"
+#include "engine/scene/data_root.h"
 #include "shaders/lib/glm_subset.h"
 #include "shaders/shared/bindings.h"
 #include "support/box_scene.h"

@@ -10,6 +10,7 @@
 #include "bench/sequences.h"
 #include "bench/svg_frames.h"
 #include "engine/core/files.h"
+#include "engine/scene/data_root.h"
 #include "support/command.h"
 
 namespace tyndall::test {

@@ -6,8 +6,8 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "engine/core/files.h"
 #include "engine/core/image.h"
+#include "engine/scene/data_root.h"
 #include "support/command.h"
 #include "support/scenes.h"
 

@@ -4,7 +4,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "engine/core/files.h"
+#include "engine/scene/data_root.h"
 #include "support/command.h"
 
 namespace tyndall::test {

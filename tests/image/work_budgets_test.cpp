@@ -11,7 +11,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "engine/core/files.h"
+#include "engine/scene/data_root.h"
 #include "support/command.h"
 #include "support/scenes.h"
 #include "volumetrics/settings.h"

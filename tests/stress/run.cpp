@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "engine/core/error.h"
-#include "engine/core/files.h"
+#include "engine/scene/data_root.h"
 
 namespace tyndall::stress {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/core/files.h"
 #include "engine/gl/readback.h"
+#include "engine/scene/data_root.h"
 
 namespace tyndall {
 namespace {

@@ -41,8 +41,8 @@ GlTest::~GlTest() {
     EXPECT_EQ(glGetError(), GLenum(GL_NO_ERROR));
 }
 
-ShaderLibrary& shared_shaders(const std::filesystem::path& root) {
-    return libraries.try_emplace(root, root).first->second;
+ShaderLibrary& shared_shaders(const Roots& roots) {
+    return libraries.try_emplace(roots.first(""), roots).first->second;
 }
 
 }  // namespace tyndall

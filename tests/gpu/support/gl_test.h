@@ -6,6 +6,7 @@
 
 #include "engine/core/files.h"
 #include "engine/platform/gl_context.h"
+#include "engine/scene/data_root.h"
 #include "engine/shader/shader_library.h"
 
 namespace tyndall {
@@ -19,8 +20,8 @@ class GlTest : public ::testing::Test {
     [[nodiscard]] static GlContext& context();
 };
 
-/// The programs of a folder that does not change, compiled once for all tests of the process: most of a test's time
-/// is the driver's compiler's.
-[[nodiscard]] ShaderLibrary& shared_shaders(const std::filesystem::path& root = data_root());
+/// The programs of folders that do not change, told apart by the first of them, compiled once for all tests of the
+/// process: most of a test's time is the driver's compiler's.
+[[nodiscard]] ShaderLibrary& shared_shaders(const Roots& roots = data_root());
 
 }  // namespace tyndall

@@ -26,7 +26,7 @@ const ProgramDesc desc{.name = "probe",
 
 }  // namespace
 
-LightProbe::LightProbe() : programs_(folder_.path()) {
+LightProbe::LightProbe() : programs_(folder_.roots()) {
     write_text(folder_.path() / "shaders/probe.comp", glsl);
 }
 

@@ -17,7 +17,7 @@ class LightProbe {
         return found == skipped_.end() ? "not in the list" : found->second;
     }
     [[nodiscard]] const gl::Program& program(int light_volumes);
-    [[nodiscard]] const std::filesystem::path& folder() const { return folder_.path(); }
+    [[nodiscard]] Roots roots() const { return folder_.roots(); }
 
   private:
     ShaderFolder folder_;

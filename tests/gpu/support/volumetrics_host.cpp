@@ -117,8 +117,6 @@ ShaderFolder::ShaderFolder() {
     path_ = fs::temp_directory_path() /
             ("tyndall_stub_host_" + std::to_string(getpid()) + "_" + std::to_string(count++));
     fs::create_directories(path_ / "shaders/interface");
-    for (const char* name : {"lib", "shared", "volumetrics"})
-        fs::copy(data_root() / "shaders" / name, path_ / "shaders" / name, fs::copy_options::recursive);
     write_text(path_ / "shaders/interface/lights.glsl", lights_glsl);
     write_text(path_ / "shaders/interface/shadows.glsl", shadows_glsl);
     write_text(path_ / "shaders/interface/shadow_maps.glsl", shadow_maps_glsl);
@@ -129,7 +127,7 @@ ShaderFolder::~ShaderFolder() {
     fs::remove_all(path_, ignored);
 }
 
-StubHost::StubHost() : volumetrics_(shared_shaders(stub_folder().path())) {}
+StubHost::StubHost() : volumetrics_(shared_shaders(stub_folder().roots())) {}
 
 glm::mat4 StubHost::projection() const {
     const float f = 1 / std::tan(0.5F * vertical_fov);

@@ -9,9 +9,11 @@
 #include <vector>
 
 #include "engine/core/image.h"
+#include "engine/core/roots.h"
 #include "engine/gl/buffer.h"
 #include "engine/gl/texture.h"
 #include "engine/graph/pass_list.h"
+#include "engine/scene/data_root.h"
 #include "shaders/shared/lights.h"
 #include "volumetrics/volumetrics.h"
 
@@ -26,7 +28,7 @@ using volumetrics::Shape;
 /// A view depth that stands for the sky.
 constexpr float sky = -1;
 
-/// A folder with the repository's shaders, in which shaders/interface is this host's. Lives as long as the object.
+/// A folder with this host's shaders/interface. Lives as long as the object.
 class ShaderFolder {
   public:
     ShaderFolder();
@@ -34,6 +36,7 @@ class ShaderFolder {
     ShaderFolder(const ShaderFolder&) = delete;
     ShaderFolder& operator=(const ShaderFolder&) = delete;
     [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+    [[nodiscard]] Roots roots() const { return {path_, data_root()}; }  ///< all else is the repository's
 
   private:
     std::filesystem::path path_;

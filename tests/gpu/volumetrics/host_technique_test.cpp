@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "engine/core/error.h"
-#include "engine/core/files.h"
+#include "engine/scene/data_root.h"
 #include "tests/gpu/support/gl_test.h"
 #include "tests/gpu/support/volumetrics_host.h"
 #include "volumetrics/frame.h"

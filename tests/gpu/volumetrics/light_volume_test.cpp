@@ -248,7 +248,7 @@ TEST_F(VolumetricsLightVolume, NothingOfItWithoutNeed) {
 }
 
 TEST_F(VolumetricsLightVolume, WithoutVolumesTheyAreNotInTheShaderText) {
-    const std::string text = resolve_includes(probe.folder(), "shaders/volumetrics/light/light_transmittance.glsl");
+    const std::string text = resolve_includes(probe.roots(), "shaders/volumetrics/light/light_transmittance.glsl");
     EXPECT_THAT(text, HasSubstr("#if LIGHT_VOLUMES"));
     host.global = {{.sigma_s = glm::vec3(0.1F)}};
     host.has_sun = true;

@@ -12,6 +12,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/files.h"
+#include "engine/scene/data_root.h"
 #include "modules/volumetrics/src/media/media.h"
 #include "shaders/shared/bindings.h"
 #include "tests/gpu/support/gl_test.h"
@@ -40,7 +41,7 @@ int stratum(float offset, int strata) {
 
 class VolumetricsNoise : public GlTest {
   protected:
-    VolumetricsNoise() : shaders(folder.path()) {
+    VolumetricsNoise() : shaders(folder.roots()) {
         write_text(folder.path() / "shaders/noise_test.comp", R"(
 #include "shaders/volumetrics/reconstruction/noise_offset.glsl"
 layout(local_size_x = 16, local_size_y = 16) in;
@@ -60,7 +61,7 @@ void main() {
         const volumetrics::FrameMedia media = volumetrics::gather_media(inputs, settings);
         uniforms.assign(std::span<const shared::VolumetricsData>(&media.data, 1), "uniforms");
         uniforms.bind(GL_UNIFORM_BUFFER, BINDING_VOLUMETRICS);
-        source.prepare(settings);
+        source.prepare(settings, shaders.roots());
         source.bind();
         results.bind(GL_SHADER_STORAGE_BUFFER, 0);
         shaders.get(probe).use();
@@ -215,27 +216,26 @@ TEST_F(VolumetricsNoise, R2MovesThePatternOfEachPeriodAsAWhole) {
 TEST_F(VolumetricsNoise, OnlyTheTextureThatIsChosenIsHeld) {
     constexpr std::size_t texture = 128 * 128 * 32, tile = 16 * 16 * 4;
     for (const Noise noise : kinds) {
-        source.prepare(with(noise));
+        source.prepare(with(noise), shaders.roots());
         EXPECT_EQ(source.bytes(), tile + (std::ranges::count(textures, noise) > 0 ? texture : 0));
     }
     Settings settings = with(Noise::stbn);
     settings.technique = "froxel";  // samples no noise
-    source.prepare(settings);
+    source.prepare(settings, shaders.roots());
     EXPECT_EQ(source.bytes(), 0U);
 }
 
 TEST_F(VolumetricsNoise, AMissingOrShortFileIsOneClearErrorAndChangesNothing) {
-    source.prepare(with(Noise::blue));
-    const std::filesystem::path path = folder.path() / "assets/noise/stbn_128x128x32_r8.raw";
-    ::setenv("TYNDALL_DATA", folder.path().c_str(), 1);
-    for (int i = 0; i < 2; ++i) {
-        EXPECT_THAT([&] { source.prepare(with(Noise::stbn)); },
-                    ThrowsMessage<Error>(AllOf(HasSubstr(path.string()), HasSubstr("524288"),
-                                               HasSubstr(i == 0 ? "no such file" : "5 bytes"))));
-        std::filesystem::create_directories(path.parent_path());
-        write_text(path, "short");
-    }
-    ::unsetenv("TYNDALL_DATA");
+    source.prepare(with(Noise::blue), shaders.roots());
+    const Roots own(folder.path());
+    const std::string name = "assets/noise/stbn_128x128x32_r8.raw";
+    const std::filesystem::path path = folder.path() / name;
+    EXPECT_THAT([&] { source.prepare(with(Noise::stbn), own); },
+                ThrowsMessage<Error>(name + ": no such file in " + folder.path().string()));
+    std::filesystem::create_directories(path.parent_path());
+    write_text(path, "short");
+    EXPECT_THAT([&] { source.prepare(with(Noise::stbn), own); },
+                ThrowsMessage<Error>(path.string() + ": 5 bytes, 524288 of noise expected"));
     EXPECT_EQ(source.bytes(), std::size_t(128 * 128 * 32 + 16 * 16 * 4));
     EXPECT_EQ(offsets(with(Noise::blue), 0).size(), std::size_t(side * side));
 }

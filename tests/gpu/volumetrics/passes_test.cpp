@@ -6,9 +6,9 @@
 #include <cstdio>
 
 #include "engine/core/error.h"
-#include "engine/core/files.h"
 #include "engine/gl/program_limits.h"
 #include "engine/gl/readback.h"
+#include "engine/scene/data_root.h"
 #include "tests/gpu/support/covering_permutations.h"
 #include "tests/gpu/support/gl_test.h"
 #include "tests/gpu/support/volumetrics_host.h"

@@ -49,7 +49,7 @@ TEST_F(VolumetricsPhase, FunctionsIntegrateToOneOnTheGpu) {
     write_text(folder.path() / "shaders/phase_test.comp", integrate_phase);
     static const ProgramDesc desc{
         .name = "phase test", .stages = {{GL_COMPUTE_SHADER, "shaders/phase_test.comp"}}, .axes = {}, .valid = {}};
-    ShaderLibrary shaders(folder.path());
+    ShaderLibrary shaders(folder.roots());
     const std::vector<float> anisotropies{-0.9F, -0.5F, 0, 0.3F, 0.7F, 0.9F};
     std::vector<float> results(7 * anisotropies.size());
     const gl::Buffer result_buffer(results.size() * sizeof(float), "results");
@@ -82,7 +82,7 @@ TEST_F(VolumetricsPhase, ValuesAreThoseOfCpp) {
     write_text(folder.path() / "shaders/phase_test.comp", tabulate_phase);
     static const ProgramDesc desc{
         .name = "phase test", .stages = {{GL_COMPUTE_SHADER, "shaders/phase_test.comp"}}, .axes = {}, .valid = {}};
-    ShaderLibrary shaders(folder.path());
+    ShaderLibrary shaders(folder.roots());
     std::vector<glm::vec4> arguments;
     for (const float g : {-1.0F, -0.999F, -0.4F, 0.0F, 0.3F, 0.97F, 1.0F})
         for (const float c : {-1.0F, -0.99F, -0.3F, 0.0F, 0.5F, 0.999F, 1.0F})

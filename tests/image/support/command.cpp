@@ -12,7 +12,7 @@
 #include <cstdlib>
 #include <stdexcept>
 
-#include "engine/core/files.h"
+#include "engine/scene/data_root.h"
 
 namespace tyndall::test {
 namespace {

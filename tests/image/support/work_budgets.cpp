@@ -2,7 +2,7 @@
 
 #include <fstream>
 
-#include "engine/core/files.h"
+#include "engine/scene/data_root.h"
 
 namespace tyndall::test {
 namespace {

@@ -10,6 +10,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/output_files.h"
+#include "engine/scene/data_root.h"
 
 namespace tyndall {
 namespace {

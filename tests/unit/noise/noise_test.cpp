@@ -9,6 +9,7 @@
 #include <random>
 
 #include "engine/core/files.h"
+#include "engine/scene/data_root.h"
 #include "tools/noise/filters.h"
 #include "tools/noise/measure.h"
 #include "tools/noise/recipes.h"

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "engine/core/files.h"
+#include "engine/scene/data_root.h"
 #include "engine/scene/mesh_build.h"
 #include "engine/scene/scene.h"
 

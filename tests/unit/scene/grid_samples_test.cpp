@@ -2,7 +2,7 @@
 
 #include <numeric>
 
-#include "engine/core/files.h"
+#include "engine/scene/data_root.h"
 #include "engine/scene/density_grid.h"
 
 namespace tyndall {

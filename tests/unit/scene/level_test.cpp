@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "engine/core/files.h"
+#include "engine/scene/data_root.h"
 #include "engine/scene/scene.h"
 
 namespace tyndall {

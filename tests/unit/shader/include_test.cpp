@@ -57,9 +57,31 @@ TEST(Includes, AMissingFileNamesItsIncluderAndLine) {
     }
 }
 
-TEST(Includes, AMissingStageNamesItself) {
+TEST(Includes, AMissingStageNamesItselfAndAllRoots) {
     TempRoot root;
-    EXPECT_THROW((void)resolve_includes(root.path(), "shaders/none.frag"), Error);
+    const std::filesystem::path own = root.path() / "own", others = root.path() / "others";
+    try {
+        (void)resolve_includes({own, others}, "shaders/none.frag");
+        FAIL() << "no error";
+    } catch (const Error& error) {
+        EXPECT_THAT(error.what(),
+                    AllOf(HasSubstr("shaders/none.frag"), HasSubstr(own.string()), HasSubstr(others.string())));
+    }
+}
+
+TEST(Includes, AreTakenFromTheFirstRootThatHasThem) {
+    TempRoot root;
+    const std::filesystem::path own = root.path() / "own", others = root.path() / "others";
+    for (const auto& folder : {own, others}) std::filesystem::create_directories(folder / "shaders");
+    root.write("own/shaders/lights.glsl", "mine\n#include \"shaders/phase.glsl\"\n");
+    root.write("others/shaders/lights.glsl", "theirs\n");
+    root.write("others/shaders/phase.glsl", "phase\n");
+    const Roots roots{own, others};
+    std::vector<std::filesystem::path> files;
+    EXPECT_EQ(resolve_includes(roots, "shaders/lights.glsl", &files),
+              "#line 1 0\nmine\n#line 1 1\nphase\n#line 3 0\n");
+    EXPECT_THAT(files, ElementsAre(own / "shaders/lights.glsl", others / "shaders/phase.glsl"));
+    EXPECT_EQ(roots.name_of(files[1]), "shaders/phase.glsl");
 }
 
 }  // namespace

@@ -32,7 +32,7 @@ TEST(Permutations, LeaveOutInvalidOnes) {
 TEST(PermutationMisuse, UndeclaredDefinesAndValuesFail) {
     GTEST_FLAG_SET(death_test_style, "threadsafe");
     const ProgramDesc desc{"march", {}, {{"SUN", {0, 1}}}, {}};
-    ShaderLibrary library(".");
+    ShaderLibrary library({"."});
     EXPECT_DEATH((void)library.get(desc), "march");
     EXPECT_DEATH((void)library.get(desc, {{"SUN", 2}}), "march SUN=2");
     EXPECT_DEATH((void)library.get(desc, {{"SUN", 1}, {"FOG", 1}}), "march FOG=1 SUN=1");

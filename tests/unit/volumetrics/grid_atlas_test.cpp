@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-#include "engine/core/files.h"
+#include "engine/scene/data_root.h"
 #include "engine/scene/density_grid.h"
 #include "shaders/shared/volumetrics.h"
 #include "tests/support/voxels.h"

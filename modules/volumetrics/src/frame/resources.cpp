@@ -6,7 +6,7 @@
 
 namespace tyndall::volumetrics {
 
-void Resources::upload(const Settings& settings, FrameMedia& media) {
+void Resources::upload(const Settings& settings, FrameMedia& media, const Roots& roots) {
     media.data.loop_rounds = gl::loop_rounds();
     if (!nearest.id()) {
         nearest = gl::Sampler({.min_filter = GL_NEAREST, .mag_filter = GL_NEAREST}, "volumetrics nearest");
@@ -28,7 +28,7 @@ void Resources::upload(const Settings& settings, FrameMedia& media) {
                             "volumetrics media of the screen");
     }
     if (media.uses_grids || media.grids.empty()) grids.prepare(media.grids);
-    noise.prepare(settings);
+    noise.prepare(settings, roots);
 }
 
 void Resources::release(const FrameMedia& media) {

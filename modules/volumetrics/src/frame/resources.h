@@ -30,7 +30,7 @@ struct Resources {
         std::optional<TextureRef> noise_volume;
     } this_frame;
 
-    void upload(const Settings& settings, FrameMedia& media);
+    void upload(const Settings& settings, FrameMedia& media, const Roots& roots);
     /// No medium is in view: frees all but the samplers, and what is made of density grids while there are any.
     void release(const FrameMedia& media);
     [[nodiscard]] std::size_t bytes() const;  ///< held between frames

@@ -79,7 +79,7 @@ void Volumetrics::prepare(const Inputs& inputs, const Settings& settings) {
     if (impl_->media.empty() && !impl_->resources.light_volumes.any())
         impl_->resources.release(impl_->media);
     else
-        impl_->resources.upload(settings, impl_->media);
+        impl_->resources.upload(settings, impl_->media, impl_->shaders.roots());
 }
 
 LightTransmittance Volumetrics::add_light_passes(PassList& passes, const Inputs& inputs, const Settings& settings) {

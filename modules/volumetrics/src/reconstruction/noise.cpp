@@ -51,14 +51,12 @@ std::vector<float> white_tile(unsigned side) {
     return tile;
 }
 
-gl::Texture load_texture(const std::string& name) {
+gl::Texture load_texture(const std::string& name, const Roots& roots) {
     const gl::TextureDesc desc{.kind = gl::TextureKind::d2_array,
                                .format = GL_R8,
                                .size = {NOISE_TEXTURE_SIDE, NOISE_TEXTURE_SIDE, NOISE_TEXTURE_SLICES}};
-    const std::filesystem::path path = data_root() / "assets/noise" / name;
+    const std::filesystem::path path = roots.find("assets/noise/" + name);
     const std::size_t expected = gl::byte_size(desc);
-    if (!std::filesystem::is_regular_file(path))
-        throw Error(fmt::format("{}: no such file; {} bytes of noise expected", path.string(), expected));
     const std::vector<std::uint8_t> bytes = read_bytes(path);
     if (bytes.size() != expected)
         throw Error(fmt::format("{}: {} bytes, {} of noise expected", path.string(), bytes.size(), expected));
@@ -95,7 +93,7 @@ std::string noise_texture_name(const Settings& settings) {
                        spatial_kernel_names()[static_cast<std::size_t>(settings.noise.fast_space)], suffix);
 }
 
-void NoiseSource::prepare(const Settings& settings) {
+void NoiseSource::prepare(const Settings& settings, const Roots& roots) {
     const bool sampled = technique(settings.technique).traits.sampling == Sampling::per_pixel;
     const std::string texture = noise_texture_name(settings);
     const std::string name =
@@ -107,7 +105,7 @@ void NoiseSource::prepare(const Settings& settings) {
         std::vector<float> tile = noise_tile(settings.noise.kind, settings.noise.size);
         tile.resize(NOISE_TILE_OFFSETS);  // whatever the noise, the shaders' block is there and whole
         made.tile_ = gl::Buffer::of(std::span<const float>(tile), "volumetrics noise tile");
-        if (!texture.empty()) made.texture_ = load_texture(texture);
+        if (!texture.empty()) made.texture_ = load_texture(texture, roots);
     }
     *this = std::move(made);
 }

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/core/roots.h"
 #include "engine/gl/buffer.h"
 #include "engine/gl/texture.h"
 #include "volumetrics/settings.h"
@@ -28,9 +29,8 @@ namespace tyndall::volumetrics {
 class NoiseSource {
   public:
     /// Makes the tile and loads the texture that the settings ask for, where they are not there yet; frees both
-    /// with a technique that samples no noise. Throws Error that names path and expected size if the file is
-    /// missing or has another size.
-    void prepare(const Settings& settings);
+    /// with a technique that samples no noise. Throws Error if the file is missing in `roots` or has another size.
+    void prepare(const Settings& settings, const Roots& roots);
     /// Tile and texture, without a sampler object.
     void bind() const;
     void release() { *this = {}; }
