@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "engine/core/error.h"
 #include "engine/graph/pass_list.h"
 #include "engine/graph/require.h"
 
@@ -52,6 +53,11 @@ void PassList::compile() {
     check_contents();
     for (const Pass& pass : passes_) check_feedback(pass);
     cull();
+    if (!passes_.empty() && std::ranges::none_of(resources_, &Resource::exported) &&
+        std::ranges::none_of(infos_, &PassInfo::live))
+        throw Error(
+            fmt::format("pass list: none of its {} passes would run, for no texture and no buffer is exported",
+                        passes_.size()));
     assign_slots();
     derive_barriers();
 }

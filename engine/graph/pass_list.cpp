@@ -80,6 +80,11 @@ const gl::TextureDesc& PassList::desc(TextureRef ref) const {
     return current(ref.index, ref.version).desc;
 }
 
+bool PassList::holds(TextureRef ref) const {
+    return ref.index < resources_.size() && !resources_[ref.index].is_buffer &&
+           ref.version == resources_[ref.index].version;
+}
+
 const PassList::Resource& PassList::current(std::uint32_t index, std::uint32_t version) const {
     TYNDALL_CHECK_LT(index, resources_.size());
     const Resource& resource = resources_[index];

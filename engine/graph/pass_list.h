@@ -121,7 +121,8 @@ class PassList {
     void export_texture(TextureRef ref);
     void export_buffer(BufferRef ref);
 
-    /// Culls, computes lifetimes and barriers.
+    /// Culls, computes lifetimes and barriers. Throws Error where passes were added and none would run, for nothing
+    /// is exported: a host that forgot to export its picture.
     void compile();
     /// Runs the live passes, each in a debug group and a timer scope of its name, then makes all shader writes
     /// visible to whatever follows. `timer` and `counters` may be null; their begin_frame is the caller's.
@@ -153,6 +154,8 @@ class PassList {
     [[nodiscard]] std::string to_dot() const;  ///< Graphviz
 
     [[nodiscard]] const gl::TextureDesc& desc(TextureRef ref) const;
+    /// Whether it is a texture of this list, in its newest version.
+    [[nodiscard]] bool holds(TextureRef ref) const;
 
   private:
     friend class PassBuilder;

@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 
+#include "engine/core/error.h"
 #include "engine/graph/pass_list.h"
 
 namespace tyndall {
@@ -39,8 +40,20 @@ TEST(Cull, KeepsTheChainThatLeadsToAnExport) {
 TEST(Cull, TakesAWholeChainThatNobodyNeeds) {
     PassList list;
     draw(list, "c", {draw(list, "b", {draw(list, "a", {})})});
+    list.export_texture(draw(list, "other", {}));
     list.compile();
-    EXPECT_THAT(list.live_pass_names(), IsEmpty());
+    EXPECT_THAT(list.live_pass_names(), ElementsAre("other"));
+}
+
+TEST(Cull, AListThatExportsNothingIsAnError) {
+    PassList list;
+    draw(list, "a", {});
+    EXPECT_THAT([&] { list.compile(); }, testing::ThrowsMessage<Error>(testing::HasSubstr("none of its 1 passes")));
+    PassList without_passes, kept;
+    EXPECT_NO_THROW(without_passes.compile());
+    kept.add(
+        "present", [](PassBuilder& b) { b.keep(); }, nothing);
+    EXPECT_NO_THROW(kept.compile());
 }
 
 TEST(Cull, KeepsBothSidesOfADiamond) {
@@ -94,7 +107,7 @@ TEST(Cull, WritingAnImportedTextureCountsOnlyIfExported) {
         TextureRef target = list.import("target", gl::TextureView(7, small));
         list.add(
             "draw", [&](PassBuilder& b) { target = b.attach_color(target); }, nothing);
-        if (exported) list.export_texture(target);
+        list.export_texture(exported ? target : list.import("other", gl::TextureView(8, small)));
         list.compile();
         EXPECT_EQ(list.live_pass_names().size(), exported ? 1U : 0U);
     }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "engine/core/error.h"
 #include "engine/gl/vertex_array.h"
 #include "frame/bound_sources.h"
 #include "frame/resources.h"
@@ -23,6 +24,7 @@ void bind_image(GLuint unit, const gl::TextureView& texture) {
 struct Running {
     const gl::Program& program;
     Resources& resources;
+    std::uint64_t prepared;  ///< Resources::prepared when it was added
     std::vector<Pass::Source> sources;
     std::vector<TextureRef> images;
     Fog fog;
@@ -34,6 +36,8 @@ struct Running {
     std::function<void()> draw;
 
     void operator()(const PassContext& context) const {
+        if (prepared != resources.prepared)
+            throw Error("volumetrics: passes run before the next prepare; each view has a Volumetrics of its own");
         if (bind_lighting) bind_lighting();
         if (light_volumes) resources.light_volumes.bind();
         if (local_media && resources.local_media) {
@@ -130,6 +134,7 @@ void Frame::add(const Pass& pass) {
     const bool lit = pass.lit && has_light();
     Running running{.program = pass.program,
                     .resources = resources,
+                    .prepared = resources.prepared,
                     .sources = pass.sources,
                     .images = {},
                     .fog = pass.fog,

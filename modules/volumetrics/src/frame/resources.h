@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 
 #include "engine/gl/buffer.h"
@@ -22,6 +23,7 @@ struct Resources {
     GridAtlas grids;
     LightVolumes light_volumes;
     NoiseSource noise;
+    std::uint64_t prepared = 0;  ///< calls of Volumetrics::prepare: passes run with what the last one uploaded
     TemporalHistory temporal;
     /// Textures of this frame, once a pass asked for them.
     struct ThisFrame {

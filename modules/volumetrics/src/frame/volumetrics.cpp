@@ -1,9 +1,13 @@
 #include "volumetrics/volumetrics.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <string>
 
 #include "engine/core/check.h"
+#include "engine/core/error.h"
+#include "frame/check_inputs.h"
 #include "frame/composite.h"
 #include "frame/resources.h"
 #include "light/sky_light.h"
@@ -38,7 +42,17 @@ struct Volumetrics::Impl {
     std::unique_ptr<Kept> kept = {};  ///< by the technique
     std::string technique = {};       ///< that keeps it
     bool count_work = false;
+    bool prepared = false;            ///< since the last add_passes
     bool light_passes_added = false;  ///< since `prepare`
+    glm::ivec2 size{0};               ///< of the host's picture
+
+    void require_prepared(const char* call) const {
+        if (!prepared)
+            throw Error(
+                fmt::format("volumetrics: {} without a prepare before it; each frame has one, and each view a "
+                            "Volumetrics of its own",
+                            call));
+    }
 
     Outputs add_technique(PassList& passes, const Inputs& inputs, const Settings& settings,
                           const TechniqueDesc& desc) {
@@ -71,6 +85,10 @@ Volumetrics::Volumetrics(ShaderLibrary& shaders) : impl_(std::make_unique<Impl>(
 Volumetrics::~Volumetrics() = default;
 
 void Volumetrics::prepare(const Inputs& inputs, const Settings& settings) {
+    if (technique(settings.technique).add && !(inputs.global.empty() && inputs.local.empty())) check_inputs(inputs);
+    impl_->prepared = true;
+    impl_->size = inputs.size;
+    ++impl_->resources.prepared;
     impl_->media = gather_media(inputs, settings);
     impl_->light_passes_added = false;
     impl_->resources.light_volumes.prepare(inputs, settings, impl_->media);
@@ -83,6 +101,7 @@ void Volumetrics::prepare(const Inputs& inputs, const Settings& settings) {
 }
 
 LightTransmittance Volumetrics::add_light_passes(PassList& passes, const Inputs& inputs, const Settings& settings) {
+    impl_->require_prepared("add_light_passes");
     LightVolumes& volumes = impl_->resources.light_volumes;
     impl_->light_passes_added = true;
     if (!impl_->media.attenuating.empty())
@@ -97,8 +116,10 @@ LightTransmittance Volumetrics::add_light_passes(PassList& passes, const Inputs&
 
 Outputs Volumetrics::add_passes(PassList& passes, const Inputs& inputs, const Settings& settings) {
     const TechniqueDesc& desc = technique(settings.technique);
+    impl_->require_prepared("add_passes");
     impl_->count_work = inputs.count_work;
     if (!impl_->light_passes_added) add_light_passes(passes, inputs, settings);
+    impl_->prepared = false;
     if (impl_->media.empty() || !averages_frames(settings)) impl_->resources.temporal.release();
     if (!desc.add || impl_->media.empty()) {
         const std::string reason = desc.add ? "no medium in view" : "technique is " + desc.name;
@@ -109,12 +130,13 @@ Outputs Volumetrics::add_passes(PassList& passes, const Inputs& inputs, const Se
         passes.skip("volumetrics/composite", reason);
         return {};
     }
-    TYNDALL_CHECK(impl_->resources.uniforms);  // prepare came first
+    check_textures(passes, inputs);
     return impl_->add_technique(passes, inputs, settings, desc);
 }
 
 TextureRef Volumetrics::composite(PassList& passes, const Outputs& outputs, TextureRef color) {
     if (!outputs.scattering) return color;
+    check_color(passes, color, impl_->size);
     return add_composite(passes, impl_->shaders, impl_->resources, outputs, color, impl_->count_work);
 }
 
