@@ -17,17 +17,6 @@ namespace {
 bool is_between(GLenum type, GLenum first, GLenum last) {
     return type >= first && type <= last;
 }
-bool is_sampler(GLenum type) {
-    return is_between(type, GL_SAMPLER_1D, GL_SAMPLER_2D_RECT_SHADOW) ||
-           is_between(type, GL_SAMPLER_1D_ARRAY, GL_SAMPLER_CUBE_SHADOW) ||
-           is_between(type, GL_INT_SAMPLER_1D, GL_UNSIGNED_INT_SAMPLER_BUFFER) ||
-           is_between(type, GL_SAMPLER_CUBE_MAP_ARRAY, GL_UNSIGNED_INT_SAMPLER_CUBE_MAP_ARRAY) ||
-           is_between(type, GL_SAMPLER_2D_MULTISAMPLE, GL_UNSIGNED_INT_SAMPLER_2D_MULTISAMPLE_ARRAY);
-}
-bool is_image(GLenum type) {
-    return is_between(type, GL_IMAGE_1D, GL_UNSIGNED_INT_IMAGE_2D_MULTISAMPLE_ARRAY);
-}
-
 /// Calls `visit` with the values of `properties` for each active resource of a kind.
 template <std::size_t N, class Visit>
 void for_each_resource(GLuint program, GLenum kind, const std::array<GLenum, N>& properties, Visit visit) {
@@ -52,6 +41,17 @@ int driver_limit(GLenum name) {
 }
 
 }  // namespace
+
+bool is_sampler(GLenum type) {
+    return is_between(type, GL_SAMPLER_1D, GL_SAMPLER_2D_RECT_SHADOW) ||
+           is_between(type, GL_SAMPLER_1D_ARRAY, GL_SAMPLER_CUBE_SHADOW) ||
+           is_between(type, GL_INT_SAMPLER_1D, GL_UNSIGNED_INT_SAMPLER_BUFFER) ||
+           is_between(type, GL_SAMPLER_CUBE_MAP_ARRAY, GL_UNSIGNED_INT_SAMPLER_CUBE_MAP_ARRAY) ||
+           is_between(type, GL_SAMPLER_2D_MULTISAMPLE, GL_UNSIGNED_INT_SAMPLER_2D_MULTISAMPLE_ARRAY);
+}
+bool is_image(GLenum type) {
+    return is_between(type, GL_IMAGE_1D, GL_UNSIGNED_INT_IMAGE_2D_MULTISAMPLE_ARRAY);
+}
 
 ProgramLimits program_needs(GLuint program) {
     ProgramLimits needs;

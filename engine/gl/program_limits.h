@@ -7,6 +7,10 @@
 
 namespace tyndall::gl {
 
+/// Types of uniforms, as GL_TYPE gives them.
+[[nodiscard]] bool is_sampler(GLenum type);
+[[nodiscard]] bool is_image(GLenum type);
+
 /// What a linked program needs of the numbers that a driver limits, or what a driver has.
 struct ProgramLimits {
     int storage_bindings = 0;  ///< the highest binding of a storage block, and 1

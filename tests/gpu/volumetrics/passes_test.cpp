@@ -1,16 +1,20 @@
 // Which passes a frame has, what they cost, and that the permutations of every program build.
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <chrono>
 #include <cstdio>
+#include <map>
 
 #include "engine/core/error.h"
+#include "engine/core/files.h"
 #include "engine/gl/program_limits.h"
 #include "engine/gl/readback.h"
 #include "engine/scene/data_root.h"
 #include "tests/gpu/support/covering_permutations.h"
 #include "tests/gpu/support/gl_test.h"
+#include "tests/gpu/support/program_bindings.h"
 #include "tests/gpu/support/volumetrics_host.h"
 
 namespace tyndall::test {
@@ -87,11 +91,35 @@ TEST_F(VolumetricsPasses, MoreHeightMediaThanTheBlockHoldsAreAnError) {
     EXPECT_THROW(host.render(Settings{}), Error);
 }
 
+/// Without what Tyndall's own shaders/interface reads, and the buffer of counted work.
+std::string module_numbers(const ProgramBindings::Numbers& numbers) {
+    static const std::set<std::string> others{
+        "FrameBlock",       "ClusterBuffer", "ClusterLightBuffer", "light_texels",   "shadow_tile_texels",
+        "sun_cascade_maps", "shadow_atlas",  "sun_static_map",     "sun_glass_maps", "lamp_glass_map",
+        "ambient_cube",     "sky_volume",    "WorkBuffer"};
+    std::string text;
+    for (const auto& [number, names] : numbers)
+        if (!std::ranges::includes(others, names)) text += (text.empty() ? "" : ", ") + std::to_string(number);
+    return text;
+}
+
+/// The module's guide has a row of every program's bindings, and no other.
+void expect_guide_lists(const std::map<std::string, ProgramBindings>& bindings) {
+    const std::string guide = read_text(data_root() / "modules/volumetrics/README.md");
+    std::string rows;
+    for (const auto& [name, used] : bindings)
+        rows += fmt::format("| `{}` | {} | {} | {} | {} |\n", name.substr(name.find('/') + 1),
+                            module_numbers(used.textures), module_numbers(used.images),
+                            module_numbers(used.storage), module_numbers(used.uniforms));
+    EXPECT_NE(guide.find("\n|---|---|---|---|---|\n" + rows + "\n"), std::string::npos) << "expected:\n" << rows;
+}
+
 constexpr std::size_t most_permutations = 950;
 
 TEST_F(VolumetricsPasses, PermutationsBuildWithinWhatOpenGlPromises) {
     ShaderLibrary engine_lighting(data_root());
     std::size_t permutations = 0, built = 0;
+    std::map<std::string, ProgramBindings> bindings;
     const auto start = std::chrono::steady_clock::now();
     for (const ProgramDesc* desc : ProgramRegistry::all()) {
         if (!desc->name.starts_with("volumetrics/")) continue;
@@ -104,9 +132,11 @@ TEST_F(VolumetricsPasses, PermutationsBuildWithinWhatOpenGlPromises) {
         for (const Permutation& permutation : permutations_to_build(all)) {
             const gl::Program& program = engine_lighting.get(*desc, permutation);
             EXPECT_NO_THROW(gl::check_limits(desc->name, gl::program_needs(program.id()), gl::promised_limits));
+            bindings[desc->name].add(program.id());
             ++built;
         }
     }
+    expect_guide_lists(bindings);
     const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
     std::printf("%zu of %zu permutations built in %.0f s\n", built, permutations, time.count());
     EXPECT_GT(built, 100U);
