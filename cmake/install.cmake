@@ -12,7 +12,8 @@ foreach(library core gl volumetrics)
 endforeach()
 # Until version 1 each minor version may change the interface.
 set_target_properties(glad tyndall_core tyndall_gl tyndall_volumetrics PROPERTIES
-                      VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+                      VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}
+                      INSTALL_RPATH "$ORIGIN" DEFINE_SYMBOL "")  # they share a precompiled header
 add_library(Tyndall::volumetrics ALIAS tyndall_volumetrics)
 target_compile_definitions(tyndall_volumetrics INTERFACE
                            $<INSTALL_INTERFACE:TYNDALL_DATA_DIR="$<INSTALL_PREFIX>/${data_dir}">)
@@ -53,3 +54,22 @@ set(pc_dir ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 file(RELATIVE_PATH prefix_from_pc /prefix/${pc_dir} /prefix)
 configure_file(cmake/tyndall-volumetrics.pc.in ${PROJECT_BINARY_DIR}/tyndall-volumetrics.pc @ONLY)
 install(FILES ${PROJECT_BINARY_DIR}/tyndall-volumetrics.pc DESTINATION ${pc_dir} COMPONENT volumetrics-dev)
+
+# cpack: Debian packages, of shared libraries where BUILD_SHARED_LIBS is on.
+set(runtime_package libtyndall-volumetrics${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+set(CPACK_GENERATOR DEB)
+set(CPACK_COMPONENTS_ALL volumetrics volumetrics-dev)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_MAINTAINER "Tyndall maintainers <maintainers@tyndall.invalid>")
+set(CPACK_DEBIAN_VOLUMETRICS_PACKAGE_NAME ${runtime_package})
+set(CPACK_DEBIAN_VOLUMETRICS_PACKAGE_SECTION libs)
+set(CPACK_DEBIAN_VOLUMETRICS_PACKAGE_SHLIBDEPS ${BUILD_SHARED_LIBS})
+set(CPACK_DEBIAN_VOLUMETRICS-DEV_PACKAGE_NAME libtyndall-volumetrics-dev)
+set(CPACK_DEBIAN_VOLUMETRICS-DEV_PACKAGE_SECTION libdevel)
+set(CPACK_DEBIAN_VOLUMETRICS-DEV_PACKAGE_DEPENDS
+    "${runtime_package} (= ${PROJECT_VERSION}), libglm-dev, libfmt-dev, libspdlog-dev, nlohmann-json3-dev")
+set(CPACK_COMPONENT_VOLUMETRICS_DESCRIPTION "Light in participating media for OpenGL 4.5 renderers: what runs")
+set(CPACK_COMPONENT_VOLUMETRICS-DEV_DESCRIPTION
+    "Light in participating media for OpenGL 4.5 renderers: what is compiled against")
+include(CPack)

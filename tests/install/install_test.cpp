@@ -1,5 +1,5 @@
-// The module as a package: installed into a folder that is then moved, found there by examples/host, a renderer that
-// knows nothing else of this repository, and seen in its picture.
+// The module as a package: installed into a folder that is then moved, found there by examples/host, a renderer
+// that knows nothing else of this repository, and seen in its picture.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <sys/wait.h>
@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <fstream>
 #include <glm/glm.hpp>
+#include <set>
 #include <sstream>
 
 namespace tyndall {
@@ -59,7 +60,9 @@ class Picture {
         header >> kind >> size_.x >> size_.y >> white;
         first_ = static_cast<std::size_t>(header.tellg()) + 1;
     }
-    [[nodiscard]] bool whole() const { return size_.x > 0 && bytes_.size() == first_ + std::size_t(3 * size_.x * size_.y); }
+    [[nodiscard]] bool whole() const {
+        return size_.x > 0 && bytes_.size() == first_ + std::size_t(3 * size_.x * size_.y);
+    }
     /// Mean radiance of 3 x 3 pixels round a place in the world.
     [[nodiscard]] double at(double x, double y, double z) const {
         const double distance = 7 - z, scale = size_.y / (2 * std::tan(glm::radians(18.0)) * distance);
@@ -91,8 +94,7 @@ class Install : public testing::Test {
         std::string pattern = (fs::temp_directory_path() / "tyndall-install-XXXXXX").string();
         folder = mkdtemp(pattern.data());
         prefix = folder / "moved";
-        must_run("{} --install {} --prefix {}", CMAKE_COMMAND, TYNDALL_BINARY_DIR,
-                                (folder / "prefix").string());
+        must_run("{} --install {} --prefix {}", CMAKE_COMMAND, TYNDALL_BINARY_DIR, (folder / "prefix").string());
         fs::rename(folder / "prefix", prefix);
         fs::copy(fs::path(TYNDALL_SOURCE_DIR) / "examples/host", folder / "host", fs::copy_options::recursive);
     }
@@ -102,7 +104,7 @@ class Install : public testing::Test {
     static void build_host() {
         if (fs::exists(folder / "build/host")) return;
         must_run("{} -S {} -B {} -G Ninja -DCMAKE_PREFIX_PATH={} -DCMAKE_CXX_FLAGS='-Wall -Wextra -Werror'",
-                                CMAKE_COMMAND, path("host"), path("build"), prefix.string());
+                 CMAKE_COMMAND, path("host"), path("build"), prefix.string());
         must_run("{} --build {}", CMAKE_COMMAND, path("build"));
     }
 
@@ -159,19 +161,33 @@ TEST_F(Install, AMissingDataFolderIsOneLineThatNamesIt) {
 TEST_F(Install, NothingThatHostsReadNamesTheTreeItWasBuiltIn) {
     int files = 0;
     for (const auto& entry : fs::recursive_directory_iterator(prefix)) {
-        if (!entry.is_regular_file() || entry.path().extension() == ".a" || entry.path().extension() == ".raw") continue;
+        if (!entry.is_regular_file() || entry.path().extension() == ".a" || entry.path().extension() == ".raw")
+            continue;
         EXPECT_THAT(text_of(entry.path()), Not(HasSubstr(TYNDALL_SOURCE_DIR))) << entry.path();
         ++files;
     }
     EXPECT_GT(files, 50);
 }
 
+TEST_F(Install, DebianPackagesHoldTheSame) {
+    must_run("cd {} && cpack --config {}/CPackConfig.cmake -B {}", folder.string(), TYNDALL_BINARY_DIR,
+             path("packages"));
+    must_run("for package in {0}/*.deb; do dpkg -x $package {0}/root; done", path("packages"));
+    const auto files = [](const fs::path& root) {
+        std::set<std::string> all;
+        for (const auto& entry : fs::recursive_directory_iterator(root))
+            all.insert(entry.path().lexically_relative(root).string());
+        return all;
+    };
+    EXPECT_EQ(files(folder / "packages/root/usr"), files(prefix));
+}
+
 TEST_F(Install, TheModuleAloneAsksForNoLibraryOfTheGame) {
-    must_run("{} -S {} -B {} -G Ninja -DTYNDALL_GAME=OFF", CMAKE_COMMAND, TYNDALL_SOURCE_DIR,
-                            path("module"));
+    must_run("{} -S {} -B {} -G Ninja -DTYNDALL_GAME=OFF", CMAKE_COMMAND, TYNDALL_SOURCE_DIR, path("module"));
     const std::string cache = text_of(folder / "module/CMakeCache.txt");
     EXPECT_THAT(cache, HasSubstr("glm_DIR"));
-    for (const char* library : {"BULLET", "embree", "OpenImageIO", "GTest", "IMGUI", "glfw", "OPENVDB", "TinyGLTF", "CLI11"})
+    for (const char* library :
+         {"BULLET", "embree", "OpenImageIO", "GTest", "IMGUI", "glfw", "OPENVDB", "TinyGLTF", "CLI11"})
         EXPECT_THAT(cache, Not(HasSubstr(library)));
 }
 
