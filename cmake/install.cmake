@@ -56,6 +56,9 @@ configure_file(cmake/tyndall-volumetrics.pc.in ${PROJECT_BINARY_DIR}/tyndall-vol
 install(FILES ${PROJECT_BINARY_DIR}/tyndall-volumetrics.pc DESTINATION ${pc_dir} COMPONENT volumetrics-dev)
 
 # cpack: Debian packages, of shared libraries where BUILD_SHARED_LIBS is on.
+if(NOT PROJECT_IS_TOP_LEVEL)
+  return()
+endif()
 set(runtime_package libtyndall-volumetrics${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
 set(CPACK_GENERATOR DEB)
 set(CPACK_COMPONENTS_ALL volumetrics volumetrics-dev)

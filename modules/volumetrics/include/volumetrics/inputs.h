@@ -71,7 +71,7 @@ struct Inputs {
     glm::vec3 eye{0};
     float znear = 0.1f;  ///< m
     glm::ivec2 size{0};  ///< px, of `depth`
-    TextureRef depth;    ///< D32F reversed-Z
+    TextureRef depth;    ///< D32F or D32F_S8, reversed-Z
     /// RG16F, or empty: nothing moves but the camera. Of the surface seen: its place on the screen now less that in
     /// the frame before, 0..1 of the picture; the camera's motion included, as projected without jitter. Beyond
     /// -1..1: it was not in the picture. Not read where depth is 0, for there only the camera moves. Wanted where
@@ -85,7 +85,8 @@ struct Inputs {
     glm::vec3 sun_direction{0, -1, 0};  ///< unit, in which its light travels: as sun_direction() in the shaders
     bool sun_shadow = true;             ///< casts one; read with has_shadow_maps alone
     bool has_lamps = false;             ///< local lights are in view
-    std::vector<Lamp> lamps;            ///< those; local media do not attenuate the light of lamps left out
+    std::vector<Lamp> lamps;            ///< those; local media do not attenuate the light of lamps left out; none
+                                        ///< without has_lamps
     bool has_ambient = false;
     /// With has_ambient: that light differs from place to place, and shaders/interface/lights.glsl says how
     /// (ambient_radiance_at).

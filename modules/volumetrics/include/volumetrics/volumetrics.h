@@ -26,12 +26,14 @@ class Volumetrics {
 
     /// Adds the passes that find out how much light local media leave on its way: before add_passes and before the
     /// host's lighting pass, which samples the volumes. A host that does not attenuate the light of surfaces need
-    /// not call it: add_passes then does.
+    /// not call it: add_passes then does. Throws Error without a `prepare` before it.
     LightTransmittance add_light_passes(PassList& passes, const Inputs& inputs, const Settings& settings);
-    /// Throws Error for more height media than the uniform block holds.
+    /// Once after each `prepare`, with the same inputs. Throws Error otherwise, for textures that are not of
+    /// `passes` in their newest version, and for such of another size than Inputs::size or of a format that is not
+    /// read.
     [[nodiscard]] Outputs add_passes(PassList& passes, const Inputs& inputs, const Settings& settings);
-    /// Applies the result to `color` (RGBA16F, linear radiance), in place; returns its new version (the same ref
-    /// when there is nothing to apply).
+    /// Applies the result to `color` (RGBA16F or RGBA32F of Inputs::size, linear radiance; Error otherwise), in
+    /// place; returns its new version (the same ref when there is nothing to apply).
     [[nodiscard]] TextureRef composite(PassList& passes, const Outputs& outputs, TextureRef color);
 
     /// Declares what shaders/volumetrics/frame/apply.glsl samples, in a host's pass that draws with it over the
@@ -45,6 +47,9 @@ class Volumetrics {
     /// on.
     void bind_uniforms() const;
     /// Uploads this frame's uniforms and media; called before add_passes, and before the host's lighting pass runs.
+    /// Passes run with what the last call uploaded: those added before it throw Error when they run. Where there is
+    /// a medium and a technique, throws Error for a camera, size, depth or sun that cannot be, more height media or
+    /// grids than there is room for, and files that are missing.
     void prepare(const Inputs& inputs, const Settings& settings);
 
     /// The view jumps (a camera cut): nothing of earlier frames shows in the next. What does not depend on the
