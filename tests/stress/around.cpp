@@ -34,7 +34,8 @@ int radius_of(const StressFrame& frame) {
 }
 
 /// How far depths within a block's reach of a pixel lie apart, relative to its own; over a silhouette 0: pixels
-/// around see the one and the other. Before a horizon's sky: none.
+/// around see the one and the other. Before the sky: none, for a ray through the middle of a block that looks as
+/// far as a pixel of it may see what no pixel sees.
 std::optional<double> depth_spread(const Around& range, int x, int y) {
     constexpr double silhouette = 0.1;
     const glm::ivec2 last = range.depth.size - 1;
@@ -44,7 +45,7 @@ std::optional<double> depth_spread(const Around& range, int x, int y) {
             least = std::min(least, range.depth.at(i, j)[0]);
             most = std::max(most, range.depth.at(i, j)[0]);
         }
-    if (range.horizon && least == 0 && most > 0) return {};
+    if (least == 0 && most > 0) return {};
     const double spread = least > 0 ? double(most) / least - 1 : 0;
     return spread < silhouette ? spread : 0;
 }
@@ -86,8 +87,6 @@ Around around(const StressFrame& frame, const std::vector<Layers>& plain, Image 
     if (range.blocks) {
         // Columns let light through silhouettes, the less of it the finer they are.
         if (layer == &Layers::scattering && holds_froxels(frame.options.volumetrics.technique)) range.floor = 5e-4;
-        range.horizon =
-            std::ranges::any_of(frame.media, [](const Medium& m) { return m.shape == Medium::Shape::height; });
         range.depth = plain.front().depth;
         range.block = frame.options.volumetrics.resolution.size == volumetrics::Resolution::half ? 2 : 4;
     }
@@ -113,7 +112,7 @@ double compare_around(const Around& range, const Image& value, std::string& wher
                     }
                 const int to_border = std::min({x, y, value.size.x - 1 - x, value.size.y - 1 - y});
                 if (range.blocks && to_border < range.radius) {  // a block's middle may lie outside
-                    const float beyond = 0.5f * (most - least);
+                    const float beyond = 0.25f * static_cast<float>(range.block) * (most - least);
                     least -= beyond;
                     most += beyond;
                 }

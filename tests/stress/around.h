@@ -15,7 +15,6 @@ struct Around {
     Image least, most;               ///< of the plain frames, or their mean
     Image depth = {};                ///< m; of a low resolution
     int block = 1;                   ///< px, whose depths a low resolution takes for one another
-    bool horizon = false;            ///< what the sky shows may change at any rate from one ray to the next
 };
 /// Of a comparison of histories.
 constexpr int history_frames = 3;

@@ -19,6 +19,7 @@ constexpr const char* limit_nodes =
     "limit: a lamp's four nodes span more than half a mean free path or 3 m of a cone, or the lamp is on the ray";
 constexpr const char* limit_mixture = "limit: a mixture whose density changes more than e-fold over a segment";
 constexpr const char* limit_silhouettes = "limit: froxel mixes the light of columns over a silhouette";
+constexpr const char* limit_rims = "limit: lamps take the rim of a soft medium for even over a segment";
 constexpr const char* limit_columns = "limit: froxel interpolates the glow of a lamp nearer than two columns";
 constexpr const char* limit_sprites = "limit: sheets and particles have lamps and local media of one point each";
 constexpr const char* limit_particles = "limit: a particle has the phase function and the sun of its centre";
@@ -271,6 +272,21 @@ bool lamp_touches_surface(const Truth& truth) {
     return false;
 }
 
+/// The rim of a soft medium in the ray's way is so thin that density changes within a segment, which lamps see as
+/// even.
+bool has_thin_rim(const StressFrame& frame, const Truth& truth, const Truth::Pixel& pixel) {
+    const volumetrics::Settings& v = frame.options.volumetrics;
+    std::size_t i = 0;
+    for (const Medium& medium : truth.scene().media) {
+        if (!is_bounded(medium)) continue;
+        const auto path = truth.local_media().shapes()[i++].path(pixel.ray.origin, pixel.ray.direction);
+        if (medium.softness == 0 || !path || path->inside.end <= 0) continue;
+        const double at = std::clamp(path->inside.end, 0.0, pixel.open.distance);
+        if (medium.softness < 4 * segment_at(v, marched(frame, pixel), at)) return true;
+    }
+    return false;
+}
+
 Bound left_out(const char* rule) {
     return {.rule = rule};
 }
@@ -302,8 +318,9 @@ Bound scattering_bound(const StressFrame& frame, const Truth& truth, const Truth
     if (march || froxel || technique == "shaft_geometry") {
         const double end = visible_end(frame, truth, pixel), varies = folds(frame, truth, pixel, end);
         if ((mixture || lamps) && varies > 1) return left_out(limit_mixture);
+        const bool tail = end == marched(frame, pixel) && pixel.open.distance > v.march.max_distance;
         if (varies > 0 && end < marched(frame, pixel)) bound.relative += 0.01;
-        if (mixture) bound.relative += 0.1 * varies;
+        if (mixture) bound.relative += 0.1 * varies + (tail ? 0.02 : 0);
         const std::optional<double> nodes = node_error(frame, truth, pixel);
         if (!nodes) return left_out(limit_nodes);
         bound.relative += *nodes;
@@ -326,11 +343,12 @@ Bound scattering_bound(const StressFrame& frame, const Truth& truth, const Truth
             return left_out(limit_fog);
         if (mixture) bound.relative += 0.01;
     }
-    if (local > 0 && froxel) {
+    if (froxel && !truth.local_media().empty()) {  // also of a ray beside them
         const double quantised = quantisation(frame, truth, pixel);
         if (quantised > std::min(0.02, 0.25 * local)) return left_out(limit_slices);
-        bound.relative += quantised + 0.02;
+        if (local > 0) bound.relative += quantised + 0.02;
     }
+    if (march && lamps && has_thin_rim(frame, truth, pixel)) return left_out(limit_rims);
     if (local > 0 && march) bound.relative += 0.02 + depth_error(truth);
     if (!truth.local_media().empty() && v.light.transmittance && technique != "reference")
         bound.relative += 0.06;  // light volumes
@@ -374,13 +392,8 @@ bool filters_shares(const StressFrame& frame) {
     if (frame.feature == Feature::history && v.temporal.place == volumetrics::TemporalPlace::after) return false;
     if (frame.options.volumetrics.technique == "radial_shafts") return true;
     if (v.filter.reconstruct == volumetrics::Reconstruct::light) return false;
-    const bool local = std::ranges::any_of(frame.media, is_bounded);
-    const bool coloured = std::ranges::any_of(frame.media, [](const Medium& medium) {
-        const glm::vec3 t = medium.sigma_s + medium.sigma_a;
-        return medium.rayleigh || t != glm::vec3(t.x);
-    });
     return frame.options.volumetrics.technique == "shaft_geometry" ||
-           (frame.options.volumetrics.technique == "ray_march" && !(local && coloured));
+           frame.options.volumetrics.technique == "ray_march";
 }
 
 }  // namespace tyndall::stress
