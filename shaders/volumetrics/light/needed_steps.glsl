@@ -14,7 +14,14 @@
 const float STEP_TOLERANCE = 0.001;
 
 #if HEIGHT_MEDIA
-float global_scattering(float y) { return mean_channel(volumetrics.homogeneous_sigma_s.rgb + height_sigma_s(y)); }
+// Scattering, extinction and emission of global media at two heights: the most e-folds that one of them changes by.
+float most_folds(float y_a, float y_b) {
+    Medium a = global_medium(y_a, 0.0, 1.0), b = global_medium(y_b, 0.0, 1.0);
+    vec3 at_a = vec3(mean_channel(a.sigma_s), mean_channel(a.optical_depth), mean_channel(a.emission));
+    vec3 at_b = vec3(mean_channel(b.sigma_s), mean_channel(b.optical_depth), mean_channel(b.emission));
+    vec3 folds = abs(log(max(at_b, 1.0e-30) / max(at_a, 1.0e-30)));
+    return max(folds.x, max(folds.y, folds.z));
+}
 #endif
 
 const uint LEAST_LOCAL_STEPS = 4u;
@@ -33,8 +40,7 @@ uint needed_steps(Ray ray, float begin, float end) {
 #if HAS_SUN
     x += abs(mean_channel(sun_optical_depth(b, -sun_direction()) - sun_optical_depth(a, -sun_direction())));
 #endif
-    float folds = abs(log(max(global_scattering(b), 1.0e-30) / max(global_scattering(a), 1.0e-30)));
-    least = max(least, uint(ceil(sqrt(min(folds * x / (12.0 * STEP_TOLERANCE), 1.0e6)))));
+    least = max(least, uint(ceil(sqrt(min(most_folds(a, b) * x / (12.0 * STEP_TOLERANCE), 1.0e6)))));
 #endif
 #if CHROMATIC
     float coloured = largest(m.optical_depth) - smallest(m.optical_depth);

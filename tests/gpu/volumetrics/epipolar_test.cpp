@@ -127,6 +127,22 @@ TEST_F(VolumetricsEpipolar, TakesAsManyStepsAsMediaNeed) {
     EXPECT_GT(error(), 0.02) << "it was no more than needed";
 }
 
+TEST_F(VolumetricsEpipolar, WhatOneMediumSendsAndAnotherAbsorbsTakesSteps) {
+    settings.march.steps = 64;
+    host.shadows = 3;
+    const auto mist = [](float sigma_a, float emission) {
+        return GlobalMedium{.sigma_a = glm::vec3(sigma_a),
+                            .emission = glm::vec3(emission),
+                            .height = true,
+                            .base = -1,
+                            .falloff = 1.5F};
+    };
+    host.global = {{.sigma_s = glm::vec3(0.05F)}, mist(0.3F, 0)};
+    EXPECT_LT(error(), 0.01) << "it scatters in mist that absorbs";
+    host.global = {{.sigma_a = glm::vec3(0.2F)}, mist(0, 0.1F)};
+    EXPECT_LT(error(), 0.01) << "mist that shines in air that absorbs";
+}
+
 TEST_F(VolumetricsEpipolar, RaysAlongTheSunlightAreLit) {
     host.shadows = 0;
     host.size = {1, 1};
