@@ -78,6 +78,7 @@ Program::Program(const std::vector<ShaderSource>& sources, const std::string& la
         throw Error(fmt::format("program '{}': does not link\n{}", label,
                                 info_log(id(), glGetProgramiv, glGetProgramInfoLog)));
     check_limits(label, program_needs(id()), driver_limits());
+    check_sampler_units(label, id());
 }
 
 GLint Program::location(std::string_view name) const {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <map>
 #include <string_view>
 #include <utility>
 
@@ -82,6 +83,22 @@ ProgramLimits program_needs(GLuint program) {
                           if (output[1] != 0) raise(needs.draw_buffers, output[0] + 1);
                       });
     return needs;
+}
+
+void check_sampler_units(const std::string& label, GLuint program) {
+    std::map<GLint, GLenum> types;
+    for_each_resource(
+        program, GL_UNIFORM, std::array<GLenum, 3>{GL_TYPE, GL_LOCATION, GL_ARRAY_SIZE},
+        [&](const std::array<GLint, 3>& uniform) {
+            const auto type = static_cast<GLenum>(uniform[0]);
+            if (!is_sampler(type)) return;
+            for (GLint i = 0; i < uniform[2]; ++i) {
+                GLint unit = 0;
+                glGetUniformiv(program, uniform[1] + i, &unit);
+                if (types.emplace(unit, type).first->second != type)
+                    throw Error(fmt::format("{}: samplers of two types share texture unit {}", label, unit));
+            }
+        });
 }
 
 ProgramLimits driver_limits() {

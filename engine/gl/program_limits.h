@@ -34,4 +34,8 @@ inline constexpr ProgramLimits promised_limits{8, 8, 8, 8, 8, 16, 8, 8};
 /// Throws Error that names the program, the first need beyond its limit, and both numbers.
 void check_limits(const std::string& label, const ProgramLimits& needs, const ProgramLimits& limits);
 
+/// Throws Error that names the program and the unit where two samplers of different types share one: nothing could
+/// be drawn with it (OpenGL 4.5, 7.11).
+void check_sampler_units(const std::string& label, GLuint program);
+
 }  // namespace tyndall::gl

@@ -102,6 +102,15 @@ TEST_F(GlProgram, SaysWhatItNeedsOfTheDriver) {
     EXPECT_EQ(needs.draw_buffers, 4);
 }
 
+TEST_F(GlProgram, SamplersOfTwoTypesOnOneUnitAreAnError) {
+    write(
+        "layout(binding = 3) uniform sampler2D a[2];\n"
+        "layout(binding = 4) uniform sampler3D b;\n"
+        "layout(location = 0) out vec4 color;\n"
+        "void main() { color = texelFetch(a[1], ivec2(0), 0) + texelFetch(b, ivec3(0), 0); }\n");
+    EXPECT_THAT(error(), HasSubstr("share texture unit 4"));
+}
+
 TEST_F(GlProgram, NeedsBeyondALimitAreAnErrorOfOneLine) {
     const gl::ProgramLimits promised = gl::promised_limits;
     EXPECT_NO_THROW(gl::check_limits("fog", promised, promised));

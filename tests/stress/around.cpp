@@ -77,7 +77,9 @@ Around around(const StressFrame& frame, const std::vector<Layers>& plain, Image 
     // A low pixel looks through the middle of its block; of local media each ray has noise of its own.
     // Transmittance changes by more of itself, the less there is of it.
     const double floor = layer == &Layers::transmittance ? 1e-3 : 1e-5;
-    const double block = std::ranges::any_of(frame.media, is_bounded) ? 0.1 : 0.02;
+    const std::string& technique = frame.options.volumetrics.technique;
+    const bool lines = technique == "epipolar" || technique == "auto";  // others at another resolution
+    const double block = std::ranges::any_of(frame.media, is_bounded) ? 0.1 : lines ? 0.05 : 0.02;
     Around range{.radius = radius_of(frame),
                  .relative = frame.feature == Feature::low_resolution ? block : 2e-3,
                  .floor = floor,
@@ -86,7 +88,7 @@ Around around(const StressFrame& frame, const std::vector<Layers>& plain, Image 
                  .most = first};
     if (range.blocks) {
         // Columns let light through silhouettes, the less of it the finer they are.
-        if (layer == &Layers::scattering && holds_froxels(frame.options.volumetrics.technique)) range.floor = 5e-4;
+        if (layer == &Layers::scattering && holds_froxels(technique)) range.floor = 5e-4;
         range.depth = plain.front().depth;
         range.block = frame.options.volumetrics.resolution.size == volumetrics::Resolution::half ? 2 : 4;
     }

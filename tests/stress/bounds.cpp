@@ -75,9 +75,8 @@ double marched(const StressFrame& frame, const Truth::Pixel& pixel) {
 double node_span(const StressFrame& frame, const Truth::Pixel& pixel, double distance) {
     const volumetrics::Settings& v = frame.options.volumetrics;
     const double length = marched(frame, pixel);
-    const std::string technique = frame.options.volumetrics.technique;
-    if (technique == "froxel") return slice_at(v, distance * pixel.ray.view_cosine);
-    if (technique == "shaft_geometry") return length / v.shaft_geometry.lamp_parts;
+    if (v.technique == "froxel") return slice_at(v, distance * pixel.ray.view_cosine);
+    if (v.technique == "shaft_geometry") return length / v.shaft_geometry.lamp_parts;
     return segment_at(v, length, distance);
 }
 
@@ -186,8 +185,8 @@ double sun_change(const Truth& truth, const Truth::Pixel& pixel) {
 
 /// Rays a column of froxels aside see surfaces at other distances: its light is mixed with theirs.
 bool mixes_columns(const StressFrame& frame, const Truth& truth, const Truth::Pixel& pixel) {
-    const volumetrics::Settings& v = frame.options.volumetrics;
-    const glm::dvec2 column = glm::dvec2(frame.size) / glm::dvec2(v.froxels.x, v.froxels.y);
+    const auto& froxels = frame.options.volumetrics.froxels;
+    const glm::dvec2 column = glm::dvec2(frame.size) / glm::dvec2(froxels.x, froxels.y);
     for (const glm::dvec2 step : {glm::dvec2(column.x, 0), {-column.x, 0}, {0, column.y}, {0, -column.y}}) {
         const double there = truth.visible_distance(pixel_ray(frame.view, frame.size, pixel.place + step));
         if (std::min(there, pixel.open.distance) < 0.7 * std::max(there, pixel.open.distance)) return true;
@@ -227,7 +226,7 @@ double depth_error(const Truth& truth) {
         const glm::vec3 size = medium.half_extent;
         const bool disc = std::max({size.x, size.y, size.z}) > 4 * std::min({size.x, size.y, size.z});
         if (medium.shape != Medium::Shape::box && medium.softness > 0 && disc) error = std::max(error, 0.1);
-        if (medium.noise_scale > 0 && medium.noise_amount > 0) error = std::max(error, 0.3);
+        if (medium.noise_scale > 0 && medium.noise_amount > 0) error = std::max(error, 0.5);
     }
     return error;
 }
@@ -254,16 +253,16 @@ bool sees_an_edge(const StressFrame& frame, const Truth& truth, const Truth::Pix
     return false;
 }
 
-/// What casts a lamp's shadow begins 2 cm from it (engine/render/shadow_tiles.cpp).
+/// What casts a lamp's shadow begins 2 cm from it (engine/render/shadow_tiles.cpp). Looks from both sides of
+/// surfaces.
 bool lamp_touches_surface(const Truth& truth) {
     constexpr double reach = 0.02 * std::numbers::sqrt3;  // m; that of the corners of a cube, too
     for (const Light& light : truth.scene().lights) {
         if (light.type == LightType::sun || light.intensity == glm::vec3(0) || !light.shadow) continue;
         const dvec3 place(truth.scene().nodes[static_cast<std::size_t>(light.node)].world[3]);
         for (int i = 0; i < 27; ++i) {
-            if (i == 13) continue;  // the middle
+            if (i == 13) continue;
             const dvec3 direction = glm::normalize(dvec3(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1));
-            // Surfaces are seen from their front alone.
             if (truth.visible_distance({place, direction, 0, 1}) < reach ||
                 truth.visible_distance({place + reach * direction, -direction, 0, 1}) < reach)
                 return true;
@@ -275,14 +274,13 @@ bool lamp_touches_surface(const Truth& truth) {
 /// The rim of a soft medium in the ray's way is so thin that density changes within a segment, which lamps see as
 /// even.
 bool has_thin_rim(const StressFrame& frame, const Truth& truth, const Truth::Pixel& pixel) {
-    const volumetrics::Settings& v = frame.options.volumetrics;
     std::size_t i = 0;
     for (const Medium& medium : truth.scene().media) {
         if (!is_bounded(medium)) continue;
         const auto path = truth.local_media().shapes()[i++].path(pixel.ray.origin, pixel.ray.direction);
         if (medium.softness == 0 || !path || path->inside.end <= 0) continue;
         const double at = std::clamp(path->inside.end, 0.0, pixel.open.distance);
-        if (medium.softness < 4 * segment_at(v, marched(frame, pixel), at)) return true;
+        if (medium.softness < 4 * segment_at(frame.options.volumetrics, marched(frame, pixel), at)) return true;
     }
     return false;
 }
@@ -320,14 +318,14 @@ Bound scattering_bound(const StressFrame& frame, const Truth& truth, const Truth
         if ((mixture || lamps) && varies > 1) return left_out(limit_mixture);
         const bool tail = end == marched(frame, pixel) && pixel.open.distance > v.march.max_distance;
         if (varies > 0 && end < marched(frame, pixel)) bound.relative += 0.01;
-        if (mixture) bound.relative += 0.1 * varies + (tail ? 0.02 : 0);
+        if (mixture) bound.relative += 0.1 * varies + (tail ? 0.06 : 0);
         const std::optional<double> nodes = node_error(frame, truth, pixel);
         if (!nodes) return left_out(limit_nodes);
         bound.relative += *nodes;
         if (froxel && (lamps || local > 0) && mixes_columns(frame, truth, pixel))
             return left_out(limit_silhouettes);
         if (froxel && !automatic && lamps && passes_near_lamp(frame, truth, pixel)) return left_out(limit_columns);
-        if (froxel) bound.relative += 0.01;
+        if (froxel) bound.relative += 0.015;
     } else if (technique == "particles") {
         if (lamps || local > 0) return left_out(limit_sprites);
         if (v.light.phase != volumetrics::PhaseFunction::henyey_greenstein || !truth.is_homogeneous() ||
@@ -343,15 +341,16 @@ Bound scattering_bound(const StressFrame& frame, const Truth& truth, const Truth
             return left_out(limit_fog);
         if (mixture) bound.relative += 0.01;
     }
+    if (technique == "reference" && lamps) bound.relative += 0.006;
     if (froxel && !truth.local_media().empty()) {  // also of a ray beside them
         const double quantised = quantisation(frame, truth, pixel);
         if (quantised > std::min(0.02, 0.25 * local)) return left_out(limit_slices);
         if (local > 0) bound.relative += quantised + 0.02;
     }
     if (march && lamps && has_thin_rim(frame, truth, pixel)) return left_out(limit_rims);
-    if (local > 0 && march) bound.relative += 0.02 + depth_error(truth);
+    if (local > 0 && march) bound.relative += 0.04 + depth_error(truth);
     if (!truth.local_media().empty() && v.light.transmittance && technique != "reference")
-        bound.relative += 0.06;  // light volumes
+        bound.relative += 0.08;  // light volumes
     return bound;
 }
 
@@ -360,6 +359,8 @@ Bound scattering_bound(const StressFrame& frame, const Truth& truth, const Truth
 double shadow_bound(const StressFrame& frame) {
     const bool coarse = std::ranges::any_of(frame.media, is_bounded) ||
                         holds_froxels(frame.options.volumetrics.technique) || samples_lamps_coarsely(frame);
+    // Lamps of shaft_geometry: once in each of a ray's parts, however few.
+    if (frame.options.volumetrics.technique == "shaft_geometry") return 0.4;
     return coarse ? 0.2 : 0.08;
 }
 

@@ -26,7 +26,7 @@ float visible_end(float y, float direction_y, float surface) {
 }
 
 // A mixture is cut at first ((1 + end / first)^(k / n) - 1), k = 1 .. n: densely at the eye, and evenly within `first`, on
-// which none of its media changes by more than e^2, or at the eye is more than THICK mean free paths of its densest channel.
+// which none of its media changes by more than e^2, or at its begin is more than a mean free path of its densest channel (THICK).
 // Behind `end` nothing shows, or no medium but the homogeneous is left.
 struct Cuts {
     bool needed;
@@ -38,7 +38,7 @@ Cuts find_cuts(float y, float direction_y, float end) {
     Cuts cuts = Cuts(false, end, end);
 #if HEIGHT_MEDIA
     const float OPAQUE = 16.0;
-    const float THICK = 4.0;
+    const float THICK = 1.0;
     vec3 homogeneous = volumetrics.homogeneous_sigma_t.rgb + volumetrics.homogeneous_emission.rgb;
     cuts.needed = HEIGHT_COUNT > 1u || (HEIGHT_COUNT == 1u && homogeneous != vec3(0.0));
     float thickest = 0.0;

@@ -1,6 +1,6 @@
 // How many segments a ray needs whose lights have no noise, so that nothing but the media asks for short ones: at most `steps`.
 //
-// A segment takes its light to be spread as one exponential, and its mean scattering to stand for each of its points
+// A segment takes its light to be spread as one exponential, and its mean scattering, extinction and emission to stand for each of its points
 // (segment.glsl). Both are exact where density is the same all along, and where it changes by f e-folds while x of optical depth on the way
 // to the eye and to the sun is gained or lost, light is off or misplaced by about the covariance of two linear functions, f x / 12. n segments
 // have f/n and x/n each. Channels share one spread, so that coloured extinction asks for segments of COLOURED_DEPTH between them. Local media cut the ray themselves (ray_media.glsl), and

@@ -20,8 +20,8 @@ layout(binding = 0) uniform sampler2D depth_texture;
 layout(binding = 2) uniform sampler2D global_light;  // sums over particles (particles.frag)
 layout(binding = 3) uniform sampler2D local_light;
 #if CHROMATIC
-layout(binding = 4) uniform sampler2D global_certain;
-layout(binding = 5) uniform sampler2D local_certain;
+layout(binding = 6) uniform sampler2D global_certain;
+layout(binding = 7) uniform sampler2D local_certain;
 #else
 #define global_certain global_light  // in its alpha
 #define local_certain local_light

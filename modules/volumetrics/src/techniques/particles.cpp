@@ -139,6 +139,8 @@ Estimate add(Frame& frame) {
                            {noise_volume(frame), true},
                            {sums.global},
                            {sums.local},
+                           {},  // grids
+                           {},
                            {sums.global_certain},
                            {sums.local_certain}},
                .targets = {&estimate.scattering, &estimate.transmittance},
