@@ -34,7 +34,11 @@ void expect_lamps(Ray ray, float begin, float end, uint segments) {
 }
 
 uint lamp_stride(uint count) { return 1u + count * lamp_rounds / volumetrics.loop_rounds; }
-uint first_lamp(uint stride, float place) { return uint(fract(39.55 * place) * float(stride)); }
+// Another for each pixel, too (Roberts' R2 sequence): not all techniques have noise in `place`.
+uint first_lamp(uint stride, float place, Ray ray) {
+    float pixel = dot(floor(ray.uv * volumetrics.target.xy), vec2(0.7548777, 0.5698403));
+    return uint(fract(39.55 * place + pixel) * float(stride));
+}
 
 // 1: of all lamps only the few of the uniform block.
 #ifndef FEW_LAMPS
@@ -73,7 +77,7 @@ vec3 lamps_at(Ray ray, float t, float t_visibility, Medium m, out vec3 unshadowe
     ClusterRange range = lights_near(ray.uv, t * ray.forward_cosine);
     vec3 sum = vec3(0.0);
     uint stride = lamp_stride(range.count);
-    for (uint i = first_lamp(stride, t_visibility); i < range.count; i += stride) {
+    for (uint i = first_lamp(stride, t_visibility, ray); i < range.count; i += stride) {
         uint index = light_index(range.offset + i);
         if (LEFT_OUT(index)) continue;
         GpuLight light = light_at(index);
@@ -175,7 +179,7 @@ void next_slice(Ray ray, Segment segment, inout LampWalk walk) {
     walk.end = clamp(light_slice_end(walk.slice) / ray.forward_cosine, walk.begin, segment.end);
     ClusterRange range = lights_in_slice(ray.uv, walk.slice);
     walk.stride = lamp_stride(range.count);
-    walk.next = range.offset + first_lamp(walk.stride, segment.offset);
+    walk.next = range.offset + first_lamp(walk.stride, segment.offset, ray);
     walk.list_end = range.offset + range.count;
 }
 
