@@ -2,7 +2,7 @@
 const { runs, pictures } = JSON.parse(document.getElementById('results').textContent);
 const id = name => document.getElementById(name);
 
-// What rows may hold; `front` where less is better and a stair of the best is drawn.
+// What rows may hold, and what axes and table call it.
 const measures = {
     volumetrics_ms: 'ms, volumetrics', frame_ms: 'ms, whole frame', value: 'value of the variable',
     scattering_relative_rmse: 'relative RMSE', scattering_relative_rmse_dim98: 'relative RMSE, dimmest 98%',

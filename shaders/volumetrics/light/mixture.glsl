@@ -9,7 +9,7 @@
 // sigma_t at a height.
 vec3 global_sigma_t(float y) { return global_medium(y, 0.0, 1.0).optical_depth; }
 
-// Nothing shows behind 1e6 mean free paths of the medium at the eye, nor where a falling ray has come 40 falloffs below
+// Nothing shows behind 1e6 mean free paths of the medium at the ray's begin, nor where a falling ray has come 40 falloffs below
 // the base. To go on would only cost precision.
 float visible_end(float y, float direction_y, float surface) {
     vec3 sigma_t = global_sigma_t(y);
@@ -25,7 +25,7 @@ float visible_end(float y, float direction_y, float surface) {
     return end;
 }
 
-// A mixture is cut at first ((1 + end / first)^(k / n) - 1), k = 1 .. n: densely at the eye, and evenly within `first`, on
+// A mixture is cut at first ((1 + end / first)^(k / n) - 1), k = 1 .. n: densely at its begin, and evenly within `first`, on
 // which none of its media changes by more than e^2, or at its begin is more than a mean free path of its densest channel (THICK).
 // Behind `end` nothing shows, or no medium but the homogeneous is left.
 struct Cuts {
@@ -53,7 +53,7 @@ Cuts find_cuts(float y, float direction_y, float end) {
         cuts.first = min(cuts.first, THICK / max(sigma_t, 1.0e-30));
         thickest = max(thickest, scale);
         // Its depth is sigma scale (exp(t / scale) - 1) where the ray falls, sigma scale (1 - exp(-t / scale)) where it
-        // rises, sigma at the eye; x = log(OPAQUE / (sigma scale)), for sigma may be far below what a float can hold.
+        // rises, sigma at the ray's begin; x = log(OPAQUE / (sigma scale)), for sigma may be far below what a float can hold.
         float x = log(OPAQUE / max(smallest(to_extinction(medium.sigma_t_falloff.rgb)) * scale, 1.0e-30)) +
                   (y - medium.sigma_s_base.w) / medium.sigma_t_falloff.w;
         if (direction_y < 0.0)

@@ -118,7 +118,7 @@ vec3 further_suns(Ray ray, float begin, float end) {
 }
 #endif
 
-const int TAIL_PARTS = 6;
+const int TAIL_PARTS = 6;  // of a mixture, up to where it ends or nothing more shows
 
 // Global media between the end of the march and the surface, or without end where there is none. A mixture is cut as mixture.glsl
 // says, what lies behind the cuts is one part more.

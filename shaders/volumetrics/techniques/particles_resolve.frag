@@ -6,7 +6,7 @@
 // or lamps.
 // Local media: their transmittance is that of their shapes (ray_media.glsl); the light is scaled by the ratio of what this takes
 // away, 1 - T, to what the particles' sum is for that.
-// A pixel that no particle covers is lit as the nearest that some do.
+// A pixel that no particle covers is lit as the nearest ones that some particle covers.
 //
 // What it cannot do: light that changes within a particle. One visibility for a particle: a shadow edge is as sharp as
 // particles are small.
