@@ -103,7 +103,16 @@ LampIntegral lamp_integral(float a, float b, float span, float h, float radius) 
     return parts;
 }
 
-// u - a at which the integral from a reaches a value.
+// From a to u.
+float lamp_integral_before(LampIntegral parts, float u) {
+    float before = min(u, parts.enter);
+    float sum = before > parts.a ? inverse_square_integral(parts.a, before, before - parts.a, parts.h) : 0.0f;
+    if (u > parts.enter) sum += parts.inside * (min(u, parts.leave) - parts.enter) / (parts.leave - parts.enter);
+    if (u > parts.leave) sum += inverse_square_integral(parts.leave, u, u - parts.leave, parts.h);
+    return sum;
+}
+
+// The inverse: u - a at which the integral from a reaches a value.
 float lamp_advance(LampIntegral parts, float integral) {
     if (integral <= parts.before) {
         return inverse_square_advance(parts.a, parts.h, integral);
@@ -197,13 +206,23 @@ float lamp_segment_place(vec4 parts, float share) {
     return clamp(begin + width * (target - before) / max(part, 1.0e-30f), 0.0f, 1.0f);
 }
 
-// The inverse: the share of the light that is gathered before a share of the inverse square.
+// The share of the light that is gathered before a share of the inverse square, both 0..1: the integral of the cubic through the
+// nodes, as sum_k m_k (P_{k+1}(x) - P_{k-1}(x)) / 2 of Legendre polynomials over x = -1..1, with the moments m_k = sum_i parts_i P_k(x_i)
+// and x + 1 for the difference where k = 0. In an optical depth of 1 it is 0.4% of the whole off for g = 0.3 and 1.5% for g = 0.6, root mean
+// square. Without light: the share itself.
 float lamp_segment_share(vec4 parts, float share) {
     float sum = dot(parts, vec4(1.0f));
     if (!(sum > 1.0e-30f && sum < 1.0e30f)) return share;
-    vec4 begin = vec4(0.0f, 0.17392742f, 0.5f, 0.82607258f);
-    vec4 width = vec4(0.17392742f, 0.32607258f, 0.32607258f, 0.17392742f);
-    return dot(parts, clamp((vec4(share) - begin) / width, vec4(0.0f), vec4(1.0f))) / sum;
+    float m1 = dot(parts, vec4(-0.86113631f, -0.33998104f, 0.33998104f, 0.86113631f));
+    float m2 = dot(parts, vec4(0.61233364f, -0.32661934f, -0.32661934f, 0.61233364f));
+    float m3 = dot(parts, vec4(-0.30474702f, 0.41172800f, -0.41172800f, 0.30474702f));
+    float x = 2.0f * share - 1.0f;
+    float x2 = x * x;
+    float p2 = 1.5f * x2 - 0.5f;
+    float p3 = (2.5f * x2 - 1.5f) * x;
+    float p4 = (4.375f * x2 - 3.75f) * x2 + 0.375f;
+    float before = share * sum + 0.5f * (m1 * (p2 - 1.0f) + m2 * (p3 - x) + m3 * (p4 - p2));
+    return clamp(before / sum, 0.0f, 1.0f);
 }
 
 // int attenuation dt over the segment [1/m].

@@ -54,21 +54,34 @@ float epipolar_distance(EpipolarRay ray, float place) {
     return EPIPOLAR_RADIUS * (exp(place / ray.cells_per_unit) - 1.0) / max(ray.sine, 1.0e-9);
 }
 
-// How the light gathered between `begin` and `end` is spread: by exp(-fall) from one to the other, or by the four nodes of
-// a lamp's rule, whose light is `parts`.
+// How the light gathered between `begin` and `end` is spread: of the sun by exp(-fall) from one to the other; of a lamp by
+// the inverse square, whose integral is `lamp`, and by the four nodes of the lamp's rule, whose light is `parts`.
 struct Gathering {
     float begin;
     float end;
     float fall;
+    bool of_lamp;
+    LampIntegral lamp;
     vec4 parts;
-    bool by_parts;
 };
 
+const LampIntegral NO_LAMP = LampIntegral(0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0);
+
+// The share of the light that is gathered before a place; `places`: of begin and end. Inverse squares are even over places,
+// but within the sphere of the lamp's radius they are cut off, and even over distance.
 float gathered_before(EpipolarRay ray, Gathering light, float place, vec2 places) {
-    float share = ray.distance == 0.0 ? (epipolar_distance(ray, place) - light.begin) / (light.end - light.begin)
-                                      : (place - places.x) / (places.y - places.x);
-    share = clamp(share, 0.0, 1.0);
-    return light.by_parts ? lamp_segment_share(light.parts, share) : share_before(share, light.fall);
+    if (!light.of_lamp) {
+        float share = (epipolar_distance(ray, place) - light.begin) / (light.end - light.begin);
+        return share_before(clamp(share, 0.0, 1.0), light.fall);
+    }
+    float share = (place - places.x) / (places.y - places.x);
+    if (light.lamp.inside > 0.0) {
+        // The angle at the place between the ray and the way on from the lamp is that at the eye and that at the lamp.
+        float angle = acos(clamp(ray.cosine, -1.0, 1.0)) + place / ray.cells_per_unit;
+        float u = -light.lamp.h * cos(angle) / max(sin(angle), 1.0e-9);
+        share = lamp_integral_before(light.lamp, u) / light.lamp.total;
+    }
+    return lamp_segment_share(light.parts, clamp(share, 0.0, 1.0));
 }
 
 // Of the largest node that begins with the cell and ends with `last` or before.
@@ -97,18 +110,25 @@ float epipolar_share(EpipolarRay ray, Gathering light) {
     bool lit = false;
     float share = 0.0;
     while (cell <= last) {
-        vec2 node = texelFetch(epipolar_nodes, epipolar_texel(ray.root + ((ray.cells + cell) >> level)), 0).xy;
-        count_work(WORK_TREE_NODES, 1u);
-        bool all_lit = slope >= node.y;
-        if (!all_lit && slope >= node.x) {
-            --level;
-            continue;
+        // To the first node that is lit where those before it are dark, or the other way round.
+        bool changes = false;
+        while (cell <= last) {
+            vec2 node = texelFetch(epipolar_nodes, epipolar_texel(ray.root + ((ray.cells + cell) >> level)), 0).xy;
+            count_work(WORK_TREE_NODES, 1u);
+            bool all_lit = slope >= node.y;
+            if (!all_lit && slope >= node.x) {
+                --level;
+                continue;
+            }
+            changes = all_lit != lit;
+            if (changes) break;
+            cell += 1 << level;
+            level = epipolar_level(ray, cell, last);
         }
-        if (all_lit != lit) {
-            float before = cell == begin ? 0.0 : gathered_before(ray, light, float(cell), places);
-            share += lit ? before : -before;
-            lit = all_lit;
-        }
+        if (!changes) break;
+        float before = cell == begin ? 0.0 : gathered_before(ray, light, float(cell), places);
+        share += lit ? before : -before;
+        lit = !lit;
         cell += 1 << level;
         level = epipolar_level(ray, cell, last);
     }

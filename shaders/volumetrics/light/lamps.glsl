@@ -236,11 +236,10 @@ vec3 lamp_transport(Ray ray, Segment segment, uint index, GpuLight light, float 
     return transport;
 }
 
-vec3 lamp_over_segment(Ray ray, Segment segment, FoundLamp found, inout vec3 unshadowed) {
+vec3 lamp_over_reach(Ray ray, Segment segment, FoundLamp found, Reach reach, inout vec3 unshadowed) {
     count_work(WORK_LIGHT_EVALUATIONS, 1u);
     GpuLight light = light_at(found.index);
     LampRay lamp = found.lamp;
-    Reach reach = found.reach;
     float radius = LAMP_RADIUS(light);
     LampSegment rule = lamp_segment(lamp, reach.begin, reach.end, radius, lamp_inverse_range(light));
     vec4 cos_theta = lamp_segment_cos_theta(rule, lamp);
@@ -264,6 +263,42 @@ vec3 lamp_over_segment(Ray ray, Segment segment, FoundLamp found, inout vec3 uns
     unshadowed += light.intensity_radius.rgb * sum;
     return visible * light.intensity_radius.rgb * sum;
 }
+
+#if EPIPOLAR
+// Into how many parts of equal angles, as seen from the lamp, its rule needs a half turn cut: for the peak of the phase function, so that what
+// passes a lamp anywhere in an optical depth of up to 2 is off by at most 0.2% for g = 0.3, 0.1% for 0.6 and 0.6% for 0.9 (by quadrature); for the
+// kinks of a spot's law; and in the sphere of the lamp's radius, where the angle changes fast and the light does not.
+float parts_a_half_turn(Segment segment, GpuLight light, LampRay lamp) {
+    bool two_lobes = volumetrics.phase >= uint(PHASE_DOUBLE_HENYEY_GREENSTEIN);
+    float parts = two_lobes ? 8.0 : min(1.0 / (1.0 - abs(segment.anisotropy)), 12.0);
+    if (is_spot(light) || lamp.h < LAMP_RADIUS(light)) parts = max(parts, 4.0);
+    return parts;
+}
+
+vec3 lamp_over_segment(Ray ray, Segment segment, FoundLamp found, inout vec3 unshadowed) {
+    GpuLight light = light_at(found.index);
+    LampRay lamp = found.lamp;
+    Reach part = found.reach;
+    float a = part.begin - lamp.t_closest;
+    float b = part.end - lamp.t_closest;
+    float angle = atan(lamp.h * (part.end - part.begin), lamp.h * lamp.h + a * b);
+    const float HALF_TURN = 3.14159265;
+    int parts = int(ceil(max(parts_a_half_turn(segment, light, lamp) * angle / HALF_TURN, 1.0)));
+    vec3 sum = vec3(0.0);
+    for (int i = 1; i <= parts; ++i) {
+        float integral = angle * float(i) / (float(parts) * max(lamp.h, 1.0e-6));
+        part.end = i == parts ? found.reach.end
+                              : clamp(found.reach.begin + inverse_square_advance(a, lamp.h, integral), part.begin, found.reach.end);
+        sum += lamp_over_reach(ray, segment, found, part, unshadowed);
+        part.begin = part.end;
+    }
+    return sum;
+}
+#else
+vec3 lamp_over_segment(Ray ray, Segment segment, FoundLamp found, inout vec3 unshadowed) {
+    return lamp_over_reach(ray, segment, found, found.reach, unshadowed);
+}
+#endif
 
 // Radiance that all lamps scatter to the segment's front; `unshadowed`: what it would be without shadows.
 vec3 lamps_over_segment(Ray ray, Segment segment, out vec3 unshadowed) {

@@ -4,7 +4,8 @@
 // (segment.glsl). Both are exact where density is the same all along, and where it changes by f e-folds while x of optical depth on the way
 // to the eye and to the sun is gained or lost, light is off or misplaced by about the covariance of two linear functions, f x / 12. n segments
 // have f/n and x/n each. Channels share one spread, so that coloured extinction asks for segments of COLOURED_DEPTH between them. Local media cut the ray themselves (ray_media.glsl), and
-// LEAST_LOCAL_STEPS cuts more are as many as dense ones need.
+// LEAST_LOCAL_STEPS cuts more are as many as dense ones need. The four nodes of a lamp's rule (lamp_segment.glsl) follow its light
+// over LAMP_DEPTH of optical depth and e-folds of density.
 #ifndef VOLUMETRICS_NEEDED_STEPS_GLSL
 #define VOLUMETRICS_NEEDED_STEPS_GLSL
 
@@ -26,9 +27,11 @@ float most_folds(float y_a, float y_b) {
 
 const uint LEAST_LOCAL_STEPS = 4u;
 const float COLOURED_DEPTH = 0.25;
+const float LAMP_DEPTH = 2.0;
 
 uint needed_steps(Ray ray, float begin, float end) {
     Medium m = global_medium(ray.origin.y + ray.direction.y * begin, ray.direction.y, end - begin);
+    float x = mean_channel(m.optical_depth);
     uint least = 1u;
 #if LOCAL_MEDIA == 2
     if (media_span.x < media_span.y) least = min(volumetrics.steps, LEAST_LOCAL_STEPS);
@@ -36,11 +39,18 @@ uint needed_steps(Ray ray, float begin, float end) {
 #if HEIGHT_MEDIA
     float a = ray.origin.y + ray.direction.y * begin;
     float b = ray.origin.y + ray.direction.y * end;
-    float x = mean_channel(m.optical_depth);
+    float folds = most_folds(a, b);
+#else
+    const float folds = 0.0;
+#endif
+#if LAMPS
+    least = max(least, uint(ceil(min((x + folds) / LAMP_DEPTH, 1.0e6))));
+#endif
+#if HEIGHT_MEDIA
 #if HAS_SUN
     x += abs(mean_channel(sun_optical_depth(b, -sun_direction()) - sun_optical_depth(a, -sun_direction())));
 #endif
-    least = max(least, uint(ceil(sqrt(min(most_folds(a, b) * x / (12.0 * STEP_TOLERANCE), 1.0e6)))));
+    least = max(least, uint(ceil(sqrt(min(folds * x / (12.0 * STEP_TOLERANCE), 1.0e6)))));
 #endif
 #if CHROMATIC
     float coloured = largest(m.optical_depth) - smallest(m.optical_depth);

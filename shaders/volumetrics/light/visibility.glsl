@@ -76,7 +76,7 @@ EpipolarRay sun_epipolar_ray = EpipolarRay(0, 1, 0, 0.0, 0.0, 1.0, 0.0, 1.0, fal
 
 Visibility sun_share(Ray ray, float begin, float end, float fall, float offset) {
     if (sun_epipolar_ray.cells == 0) return Visibility(1.0);  // it casts no shadow
-    float share = epipolar_share(sun_epipolar_ray, Gathering(begin, end, fall, vec4(0.0), false));
+    float share = epipolar_share(sun_epipolar_ray, Gathering(begin, end, fall, false, NO_LAMP, vec4(0.0)));
 #if SUN_GLASS
     vec4 lit = vec4(0.0);
     for (int i = 0; i < GLASS_POINTS && share > 0.0 && sun_epipolar_ray.glass; ++i) {
@@ -113,7 +113,8 @@ Visibility lamp_share(Ray ray, uint index, GpuLight light, LampRay lamp, vec2 re
     if (light.cone_shadow.z < 0.0) return Visibility(1.0);
     EpipolarRay of_lamp = epipolar_ray(1 + int(index), ray.direction);
     if (of_lamp.cells == 0) return Visibility(1.0);  // what is at the eye sees what the eye sees
-    float share = epipolar_share(of_lamp, Gathering(reach.x, reach.y, 0.0, parts, true));
+    LampIntegral integral = lamp_integral(reach.x - lamp.t_closest, reach.y - lamp.t_closest, reach.y - reach.x, lamp.h, LAMP_RADIUS(light));
+    float share = epipolar_share(of_lamp, Gathering(reach.x, reach.y, 0.0, true, integral, parts));
 #if LAMP_GLASS
     vec4 lit = vec4(0.0);
     for (int i = 0; i < GLASS_POINTS && share > 0.0 && light.cone_shadow.w > 0.0; ++i) {

@@ -56,7 +56,7 @@ layout(location = LAMPS_LOCATION + 1) out vec4 out_lamps_share;
 // Half of the smallest half-float number: a transmittance of this is stored as 0, and nothing behind it shows.
 const float OPAQUE = 2.98e-8;
 
-#if EPIPOLAR && SUN_GLASS
+#if EPIPOLAR && GLASS
 const uint LEAST_GLASS_STEPS = 4u;  // of a ray through coloured light, each of GLASS_POINTS
 #endif
 
@@ -291,10 +291,10 @@ void main() {
 #endif
 #endif
     float a = begin;
-#if EPIPOLAR && !LAMPS
+#if EPIPOLAR
     uint steps = needed_steps(ray, begin, end);
-#if SUN_GLASS
-    if (sun_epipolar_ray.glass) steps = max(steps, min(volumetrics.steps, LEAST_GLASS_STEPS));
+#if GLASS
+    if (LAMP_GLASS || sun_epipolar_ray.glass) steps = max(steps, min(volumetrics.steps, LEAST_GLASS_STEPS));
 #endif
     vec2 stepping = stepping_of(steps);
 #else

@@ -324,6 +324,55 @@ TEST(LampSegment, PlacesLieAsDenselyAsThereIsLight) {
     EXPECT_LT(placed.rms(), 0.25 * equi_angular.rms());
 }
 
+// The share of the light before a share of the inverse square, which outside the lamp's sphere is that of the
+// angle.
+TEST(LampSegment, SharesAreThoseOfTheLightGathered) {
+    const auto error = [](double g, double depth) {
+        std::mt19937 random(31);
+        std::uniform_real_distribution<double> unit(0.0, 1.0);
+        Error of_share;
+        for (int i = 0; i < 1000; ++i) {
+            const Case c = fog_case(random);
+            const auto light = [&](double t) {
+                const double u = t - c.lamp.t_closest, d = std::hypot(u, c.lamp.h);
+                return (1 - g * g) / std::pow(1 + g * g + 2 * g * u / d, 1.5) * std::exp(-depth / c.b * t);
+            };
+            const glsl::LampSegment s = c.lamp.segment(c.a, c.b);
+            glsl::vec4 parts;
+            for (int k = 0; k < 4; ++k) parts[k] = s.weight[k] * static_cast<float>(light(s.t[k]));
+            const double t = c.a + unit(random) * (c.b - c.a);
+            const double angles = c.lamp.integral(c.a, t) / c.lamp.integral(c.a, c.b);
+            const double share = glsl::lamp_segment_share(parts, static_cast<float>(angles));
+            of_share.add(share - c.lamp.integral(c.a, t, light) / c.lamp.integral(c.a, c.b, light));
+        }
+        return of_share;
+    };
+    EXPECT_LT(error(0.0, 0.05).rms(), 5e-4);
+    EXPECT_LT(error(0.3, 1.0).rms(), 5e-3);
+    EXPECT_LT(error(0.6, 1.0).rms(), 0.015);
+    for (const glsl::vec4 parts : {glsl::vec4(1, 2, 3, 4), glsl::vec4(0, 1, 0, 0), glsl::vec4(0)}) {
+        EXPECT_EQ(glsl::lamp_segment_share(parts, 0), 0);
+        EXPECT_NEAR(glsl::lamp_segment_share(parts, 1), 1, 1e-6);
+    }
+}
+
+// Through the sphere of the radius and past it.
+TEST(LampSegment, TheIntegralUpToAPointIsThatOfTheLaw) {
+    std::mt19937 random(37);
+    std::uniform_real_distribution<double> unit(0.0, 1.0);
+    for (int i = 0; i < 1000; ++i) {
+        Case c = fog_case(random);
+        c.lamp.radius = rounded(2 * c.lamp.h * unit(random));
+        const double t = c.a + unit(random) * (c.b - c.a), closest = c.lamp.t_closest;
+        const glsl::LampIntegral integral = glsl::lamp_integral(
+            static_cast<float>(c.a - closest), static_cast<float>(c.b - closest), static_cast<float>(c.b - c.a),
+            static_cast<float>(c.lamp.h), static_cast<float>(c.lamp.radius));
+        EXPECT_NEAR(glsl::lamp_integral_before(integral, static_cast<float>(t - closest)) / integral.total,
+                    c.lamp.integral(c.a, t) / c.lamp.integral(c.a, c.b), 1e-3)
+            << describe(c);
+    }
+}
+
 TEST(LampSegment, PlacesRiseFromEndToEnd) {
     for (const glsl::vec4 parts : {glsl::vec4(1, 2, 3, 4), glsl::vec4(0, 1, 0, 0), glsl::vec4(0, 0, 0, 5),
                                    glsl::vec4(1e-20F, 0, 0, 1), glsl::vec4(0)}) {
