@@ -41,22 +41,18 @@ Plot error_over_time(const std::vector<Shown>& measured) {
     }
     const std::vector<std::size_t> front = pareto_front(all);
     for (const std::size_t i : front) plot.front.push_back(all[i]);
-    bool hollow = false;
     for (const Family& f : families()) {
         PlotSeries series{f.name, f.color, f.marker, {}, {}};
-        std::map<std::string, std::vector<glm::dvec2>> curves;
+        std::vector<glm::dvec2> curve;
         for (std::size_t i = 0; i < shown.size(); ++i) {
             const Configuration& c = shown[i].point->configuration;
             if (c.family != f.name) continue;
             const bool best = std::ranges::find(front, i) != front.end();
             series.points.push_back({shown[i].at, best ? c.label : "",
-                                     fmt::format("{}: {:.3g} ms, {:.3g}", c.name(), shown[i].at.x, shown[i].at.y),
-                                     !c.curve.empty()});
-            hollow |= !c.curve.empty();
-            curves[c.curve].push_back(shown[i].at);
+                                     fmt::format("{}: {:.3g} ms, {:.3g}", c.name(), shown[i].at.x, shown[i].at.y)});
+            curve.push_back(shown[i].at);
         }
-        for (const auto& [name, curve] : curves)
-            (name.empty() ? series.curves : series.faint_curves).push_back(curve);
+        series.curves.push_back(curve);
         if (!series.points.empty()) plot.series.push_back(std::move(series));
     }
     for (const Shown& s : measured) {
@@ -67,9 +63,7 @@ Plot error_over_time(const std::vector<Shown>& measured) {
         level.dashed = true;
         plot.series.push_back(std::move(level));
     }
-    plot.notes = {"Numbers: steps, on the front"};
-    if (hollow)
-        plot.notes.insert(plot.notes.end(), {"Hollow: equal steps, or lamps", "sampled at segment centres"});
+    plot.notes = {"Numbers: the setting that costs", "time, of points on the front"};
     return plot;
 }
 
@@ -182,7 +176,7 @@ Pictures headline_plots(const std::vector<Row>& rows, const std::string& machine
         plot.series.push_back(std::move(series));
     }
     if (plot.series.empty()) return {};
-    plot.series.push_back({"8 dithered steps", "#1a1a1a", Marker::circle, {}, {{{first, 1}, {last, 1}}}, {}, true});
+    plot.series.push_back({"8 dithered steps", "#1a1a1a", Marker::circle, {}, {{{first, 1}, {last, 1}}}, true});
     return {{"headline", svg_plot(plot)}};
 }
 

@@ -69,23 +69,28 @@ double label_value(const Configuration& c) {
     return c.label.empty() ? 0 : std::stod(c.label);
 }
 
-/// Every family in every combination of its axes.
+/// Every family at each of its costs.
 std::vector<Group> front_groups(const Place& place, const PlaceFacts& facts, const SuiteRequest& request) {
     Group group{place.name, {}, facts};
     for (const Family& f : families()) {
         if (request.against_gpu && f.technique == "reference") continue;
-        for (const Configuration& c : expand(f, facts))
+        for (const Configuration& c : expand(f))
             group.points.push_back(point(place, request.size, c, f.cost_key, label_value(c)));
     }
     return {group};
 }
 
-/// Every family at its cheap, usual and dear end, other axes at their first value.
+/// Every family at its cheapest and its dearest.
 std::vector<Group> stress_groups(const Place& place, const PlaceFacts& facts, const SuiteRequest& request) {
-    Group group = front_groups(place, facts, request).front();
-    std::erase_if(group.points, [](const Point& p) {
-        return !p.configuration.curve.empty() || (p.value != 0 && p.value != 2 && p.value != 8 && p.value != 32);
-    });
+    Group group{place.name, {}, facts};
+    for (const Family& f : families()) {
+        if (request.against_gpu && f.limit) continue;
+        const std::vector<Configuration> all = expand(f);
+        if (all.empty()) continue;
+        group.points.push_back(point(place, request.size, all.front(), f.cost_key, label_value(all.front())));
+        if (all.size() > 1)
+            group.points.push_back(point(place, request.size, all.back(), f.cost_key, label_value(all.back())));
+    }
     return {group};
 }
 

@@ -126,12 +126,12 @@ void Svg::rectangle(glm::dvec2 at, glm::dvec2 size, const std::string& color, co
     text_ += "</rect>\n";
 }
 
-void Svg::marker(Marker marker, glm::dvec2 at, double radius, const std::string& color, bool hollow,
+void Svg::marker(Marker marker, glm::dvec2 at, double radius, const std::string& color,
                  const std::string& tooltip) {
     std::vector<glm::dvec2> points = outline(marker, radius);
     for (glm::dvec2& p : points) p += at;
-    text_ += fmt::format("<polygon points=\"{}\" fill=\"{}\" stroke=\"{}\" stroke-width=\"{}\">", list(points),
-                         hollow ? "#ffffff" : color, hollow ? color : "#ffffff", hollow ? 1.4 : 0.7);
+    text_ += fmt::format("<polygon points=\"{}\" fill=\"{}\" stroke=\"#ffffff\" stroke-width=\"0.7\">",
+                         list(points), color);
     if (!tooltip.empty()) text_ += "<title>" + xml_escaped(tooltip) + "</title>";
     text_ += "</polygon>\n";
 }

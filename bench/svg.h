@@ -28,7 +28,7 @@ class Svg {
     void polygon(const std::vector<glm::dvec2>& points, const std::string& color, double opacity);
     void rectangle(glm::dvec2 at, glm::dvec2 size, const std::string& color, const std::string& tooltip = "");
     /// `tooltip` shows under the pointer where the file is opened in a browser.
-    void marker(Marker marker, glm::dvec2 at, double radius, const std::string& color, bool hollow,
+    void marker(Marker marker, glm::dvec2 at, double radius, const std::string& color,
                 const std::string& tooltip = "");
     [[nodiscard]] std::string finish() const { return text_ + "</svg>\n"; }
 

@@ -140,7 +140,7 @@ void draw_legend(Svg& svg, const Plot& plot) {
     for (const PlotSeries& s : plot.series) {
         if (!s.curves.empty())
             svg.polyline({{legend_x - 9, y - 2}, {legend_x + 9, y - 2}}, s.color, 1.4, 0.8, s.dashed ? "5 3" : "");
-        if (!s.points.empty()) svg.marker(s.marker, {legend_x, y - 2}, 5, s.color, false);
+        if (!s.points.empty()) svg.marker(s.marker, {legend_x, y - 2}, 5, s.color);
         svg.text({legend_x + 18, y + 2}, s.name, {});
         y += 21;
     }
@@ -166,16 +166,13 @@ std::string svg_plot(const Plot& plot) {
     Svg svg({std::max(page.x, legend_x + 26 + 6.6 * static_cast<double>(longest)), page.y});
     draw_axes(svg, plot, frame);
     for (const PlotSeries& s : plot.series) {
-        for (const auto& curve : s.faint_curves) svg.polyline(path_of(curve, frame), s.color, 1, 0.18);
         for (const auto& curve : s.curves)
             svg.polyline(path_of(curve, frame), s.color, 1.4, s.dashed ? 0.8 : 0.6, s.dashed ? "5 3" : "");
     }
     draw_front(svg, stairs(plot.front, frame));
-    for (const bool hollow : {true, false})  // the filled ones on top
-        for (const PlotSeries& s : plot.series)
-            for (const PlotPoint& p : s.points)
-                if (shows(p.at) && p.hollow == hollow)
-                    svg.marker(s.marker, frame.at(p.at), hollow ? 3.2 : 4.4, s.color, hollow, p.tooltip);
+    for (const PlotSeries& s : plot.series)
+        for (const PlotPoint& p : s.points)
+            if (shows(p.at)) svg.marker(s.marker, frame.at(p.at), 4.4, s.color, p.tooltip);
     Labels labels;
     for (const PlotSeries& s : plot.series)
         for (const PlotPoint& p : s.points)

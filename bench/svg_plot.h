@@ -12,7 +12,6 @@ struct PlotPoint {
     glm::dvec2 at;
     std::string label;    ///< beside it, where there is room
     std::string tooltip;  ///< under the pointer
-    bool hollow = false;
 };
 
 /// One look and one entry of the legend.
@@ -21,9 +20,8 @@ struct PlotSeries {
     std::string color;
     Marker marker = Marker::circle;
     std::vector<PlotPoint> points;
-    std::vector<std::vector<glm::dvec2>> curves;             ///< thin lines
-    std::vector<std::vector<glm::dvec2>> faint_curves = {};  ///< hardly to be seen
-    bool dashed = false;                                     ///< the curves are
+    std::vector<std::vector<glm::dvec2>> curves;  ///< thin lines
+    bool dashed = false;                          ///< the curves are
 };
 
 /// A log-log plot. Points that are not positive and finite in both do not show.

@@ -9,20 +9,13 @@ namespace tyndall::bench {
 
 enum class Marker { circle, square, triangle, diamond, cross, plus, star, triangle_down };
 
-/// The values a setting takes in a suite. `lamps_only`: left out where no lamp is in view.
-struct Axis {
-    std::string key;
-    std::vector<std::string> values;
-    bool lamps_only = false;
-};
-
-/// A row of the benchmark: a technique, the settings that are fixed, those that vary, and its look. A new technique
-/// joins every suite by one row in `families()`.
+/// A row of the benchmark: a technique, the settings that are fixed, the one that buys accuracy with time, and its
+/// look. A new technique joins every suite by one row in `families()`.
 struct Family {
     std::string name, technique;
     std::vector<std::string> settings;
-    std::vector<Axis> axes;  ///< all combinations; `cost_key` names the one that buys accuracy with time
-    std::string cost_key;    ///< empty: none
+    std::string cost_key;  ///< empty: none
+    std::vector<std::string> costs;
     std::string color;
     Marker marker = Marker::circle;
     int history_frames = 0;
@@ -37,7 +30,7 @@ inline constexpr int settled_frames = 32;
 /// Of one frame (history_frames 0) that knows no other, or of the technique as it comes.
 [[nodiscard]] std::vector<std::string> base_settings(const std::string& technique, int history_frames);
 
-/// All combinations of a family's axes. The first value of each axis but the cost's is the one drawn filled.
-[[nodiscard]] std::vector<Configuration> expand(const Family& family, const PlaceFacts& facts);
+/// The family at each of its costs, from the cheapest on; none where it is for other suites.
+[[nodiscard]] std::vector<Configuration> expand(const Family& family);
 
 }  // namespace tyndall::bench

@@ -84,44 +84,39 @@ LampIntegral lamp_integral(float a, float b, float span, float h, float radius) 
     parts.h = h;
     parts.enter = b;
     parts.leave = b;
-    parts.inside = 0.0f;
     float sphere = max(radius, LAMP_MIN_RADIUS);
     float chord = sqrt(max(sphere * sphere - h * h, 0.0f));
     if (h < sphere && a < chord && b > -chord) {
-        float enter = max(a, -chord);
-        float leave = min(b, chord);
-        parts.enter = enter;
-        parts.leave = leave;
-        parts.before = a < enter ? inverse_square_integral(a, enter, enter - a, h) : 0.0f;
-        parts.inside = (leave - enter) / (sphere * sphere);
-        float behind = leave < b ? inverse_square_integral(leave, b, b - leave, h) : 0.0f;
-        parts.total = parts.before + parts.inside + behind;
-    } else {
-        parts.before = inverse_square_integral(a, b, span, h);
-        parts.total = parts.before;
+        parts.enter = max(a, -chord);
+        parts.leave = min(b, chord);
+        span = parts.enter - a;
     }
+    parts.before = span > 0.0f ? inverse_square_integral(a, parts.enter, span, h) : 0.0f;
+    parts.inside = (parts.leave - parts.enter) / (sphere * sphere);
+    float behind = parts.leave < b ? inverse_square_integral(parts.leave, b, b - parts.leave, h) : 0.0f;
+    parts.total = parts.before + parts.inside + behind;
     return parts;
 }
 
 // From a to u.
 float lamp_integral_before(LampIntegral parts, float u) {
-    float before = min(u, parts.enter);
-    float sum = before > parts.a ? inverse_square_integral(parts.a, before, before - parts.a, parts.h) : 0.0f;
-    if (u > parts.enter) sum += parts.inside * (min(u, parts.leave) - parts.enter) / (parts.leave - parts.enter);
-    if (u > parts.leave) sum += inverse_square_integral(parts.leave, u, u - parts.leave, parts.h);
-    return sum;
+    bool behind = u > parts.leave;
+    float from = behind ? parts.leave : parts.a;
+    float to = behind ? u : min(u, parts.enter);
+    float sum = to > from ? inverse_square_integral(from, to, to - from, parts.h) : 0.0f;
+    if (behind) return parts.before + parts.inside + sum;
+    return u > parts.enter ? sum + parts.inside * (u - parts.enter) / (parts.leave - parts.enter) : sum;
 }
 
 // The inverse: u - a at which the integral from a reaches a value.
 float lamp_advance(LampIntegral parts, float integral) {
-    if (integral <= parts.before) {
-        return inverse_square_advance(parts.a, parts.h, integral);
+    float rest = integral - parts.before;
+    if (rest > 0.0f && rest <= parts.inside) {
+        return parts.enter - parts.a + (parts.leave - parts.enter) * rest / parts.inside;
     }
-    if (integral <= parts.before + parts.inside) {
-        return parts.enter - parts.a + (parts.leave - parts.enter) * (integral - parts.before) / parts.inside;
-    }
-    return parts.leave - parts.a +
-           inverse_square_advance(parts.leave, parts.h, integral - parts.before - parts.inside);
+    bool behind = rest > parts.inside;
+    float from = behind ? parts.leave : parts.a;
+    return from - parts.a + inverse_square_advance(from, parts.h, behind ? rest - parts.inside : integral);
 }
 
 // Quadrature rule int_{t_begin}^{t_end} attenuation(d(t)) f(t) dt = sum_i weight_i f(t_i) for what else varies
@@ -133,6 +128,7 @@ float lamp_advance(LampIntegral parts, float integral) {
 struct LampSegment {
     vec4 t;
     vec4 weight;
+    LampIntegral inverse_square;  // over what is in range
 };
 
 // Error of the rule against quadrature, relative to the integral, root mean square (maximum), over segments of 0.05
@@ -152,6 +148,7 @@ LampSegment lamp_segment(LampRay ray, float t_begin, float t_end, float radius, 
     LampSegment segment;
     segment.t = vec4(t_begin);
     segment.weight = vec4(0.0f);
+    segment.inverse_square = LampIntegral(0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f);
     float h = ray.h;
     float a = t_begin - ray.t_closest;
     float b = t_end - ray.t_closest;
@@ -172,6 +169,7 @@ LampSegment lamp_segment(LampRay ray, float t_begin, float t_end, float radius, 
     }
 
     LampIntegral parts = lamp_integral(a, b, span, h, radius);
+    segment.inverse_square = parts;
     float total = parts.total;
     vec4 target = total * vec4(0.06943184f, 0.33000948f, 0.66999052f, 0.93056816f);
     vec4 advance = vec4(lamp_advance(parts, target.x), lamp_advance(parts, target.y), lamp_advance(parts, target.z),

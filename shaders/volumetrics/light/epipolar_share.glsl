@@ -76,9 +76,11 @@ float gathered_before(EpipolarRay ray, Gathering light, float place, vec2 places
     }
     float share = (place - places.x) / (places.y - places.x);
     if (light.lamp.inside > 0.0) {
-        // The angle at the place between the ray and the way on from the lamp is that at the eye and that at the lamp.
-        float angle = acos(clamp(ray.cosine, -1.0, 1.0)) + place / ray.cells_per_unit;
-        float u = -light.lamp.h * cos(angle) / max(sin(angle), 1.0e-9);
+        // Of the triangle of eye, lamp and place the angle at the place, by the other two.
+        float at_lamp = place / ray.cells_per_unit;
+        float cosine = ray.cosine * cos(at_lamp) - ray.sine * sin(at_lamp);
+        float sine = ray.sine * cos(at_lamp) + ray.cosine * sin(at_lamp);
+        float u = -light.lamp.h * cosine / max(sine, 1.0e-9);
         share = lamp_integral_before(light.lamp, u) / light.lamp.total;
     }
     return lamp_segment_share(light.parts, clamp(share, 0.0, 1.0));

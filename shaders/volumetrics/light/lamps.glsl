@@ -259,7 +259,7 @@ vec3 lamp_over_reach(Ray ray, Segment segment, FoundLamp found, Reach reach, ino
                                             light.cone_shadow.xy);
     }
 
-    Visibility visible = lamp_share(ray, found.index, light, lamp, vec2(reach.begin, reach.end), parts, segment.offset);
+    Visibility visible = lamp_share(ray, found.index, light, vec2(reach.begin, reach.end), rule.inverse_square, parts, segment.offset);
     unshadowed += light.intensity_radius.rgb * sum;
     return visible * light.intensity_radius.rgb * sum;
 }
@@ -270,8 +270,10 @@ vec3 lamp_over_reach(Ray ray, Segment segment, FoundLamp found, Reach reach, ino
 // kinks of a spot's law; and in the sphere of the lamp's radius, where the angle changes fast and the light does not.
 float parts_a_half_turn(Segment segment, GpuLight light, LampRay lamp) {
     bool two_lobes = volumetrics.phase >= uint(PHASE_DOUBLE_HENYEY_GREENSTEIN);
-    float parts = two_lobes ? 8.0 : min(1.0 / (1.0 - abs(segment.anisotropy)), 12.0);
-    if (is_spot(light) || lamp.h < LAMP_RADIUS(light)) parts = max(parts, 4.0);
+    float g = two_lobes ? 0.9 : min(abs(segment.anisotropy), 0.9);
+    float parts = 1.0 / (1.0 - g);
+    if (is_spot(light)) parts = max(parts, 4.0);
+    if (lamp.h < LAMP_RADIUS(light)) parts = max(parts, 4.0 * min(1.0, 3.0 * g));
     return parts;
 }
 

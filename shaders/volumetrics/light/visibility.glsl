@@ -99,27 +99,24 @@ Visibility sun_share(Ray ray, float begin, float end, float fall, float offset) 
 
 // Over all offsets the point is distributed as the light is: in the inverse square (Kulla and Fajardo 2012), and in what
 // else varies by its four nodes.
-vec3 lamp_point(Ray ray, GpuLight light, LampRay lamp, vec2 reach, vec4 parts, float offset) {
-    float a = reach.x - lamp.t_closest;
-    float span = reach.y - reach.x;
-    LampIntegral integral = lamp_integral(a, a + span, span, lamp.h, LAMP_RADIUS(light));
-    float advance = clamp(lamp_advance(integral, lamp_segment_place(parts, offset) * integral.total), 0.0, span);
+vec3 lamp_point(Ray ray, vec2 reach, LampIntegral inverse_square, vec4 parts, float offset) {
+    float advance = lamp_advance(inverse_square, lamp_segment_place(parts, offset) * inverse_square.total);
+    advance = clamp(advance, 0.0, reach.y - reach.x);
     return visibility_point(ray, reach.x + advance);
 }
 
 // Of a lamp's light over [reach.x, reach.y] of the ray, of which each node of lamp_segment has its part.
-Visibility lamp_share(Ray ray, uint index, GpuLight light, LampRay lamp, vec2 reach, vec4 parts, float offset) {
+Visibility lamp_share(Ray ray, uint index, GpuLight light, vec2 reach, LampIntegral inverse_square, vec4 parts, float offset) {
 #if EPIPOLAR
     if (light.cone_shadow.z < 0.0) return Visibility(1.0);
     EpipolarRay of_lamp = epipolar_ray(1 + int(index), ray.direction);
     if (of_lamp.cells == 0) return Visibility(1.0);  // what is at the eye sees what the eye sees
-    LampIntegral integral = lamp_integral(reach.x - lamp.t_closest, reach.y - lamp.t_closest, reach.y - reach.x, lamp.h, LAMP_RADIUS(light));
-    float share = epipolar_share(of_lamp, Gathering(reach.x, reach.y, 0.0, true, integral, parts));
+    float share = epipolar_share(of_lamp, Gathering(reach.x, reach.y, 0.0, true, inverse_square, parts));
 #if LAMP_GLASS
     vec4 lit = vec4(0.0);
     for (int i = 0; i < GLASS_POINTS && share > 0.0 && light.cone_shadow.w > 0.0; ++i) {
         vec3 visible = lamp_visibility(
-            index, light, lamp_point(ray, light, lamp, reach, parts, (float(i) + 0.5) / float(GLASS_POINTS)));
+            index, light, lamp_point(ray, reach, inverse_square, parts, (float(i) + 0.5) / float(GLASS_POINTS)));
         if (!is_dark(visible)) lit += vec4(visible, 1.0);
     }
     return share * mean_lit(lit);
@@ -127,7 +124,7 @@ Visibility lamp_share(Ray ray, uint index, GpuLight light, LampRay lamp, vec2 re
     return Visibility(share);
 #endif
 #else
-    return lamp_visibility(index, light, lamp_point(ray, light, lamp, reach, parts, offset));
+    return lamp_visibility(index, light, lamp_point(ray, reach, inverse_square, parts, offset));
 #endif
 }
 

@@ -294,7 +294,11 @@ void main() {
 #if EPIPOLAR
     uint steps = needed_steps(ray, begin, end);
 #if GLASS
-    if (LAMP_GLASS || sun_epipolar_ray.glass) steps = max(steps, min(volumetrics.steps, LEAST_GLASS_STEPS));
+    bool coloured = LAMP_GLASS;
+#if SUN_GLASS && HAS_SUN
+    coloured = coloured || sun_epipolar_ray.glass;
+#endif
+    if (coloured) steps = max(steps, min(volumetrics.steps, LEAST_GLASS_STEPS));
 #endif
     vec2 stepping = stepping_of(steps);
 #else
