@@ -141,18 +141,22 @@ function measureTyndall(light, rows, folder) {
     return driver;
 }
 
-// The peer's time at an error: along its front, the settings that no other beats in both, straight between logarithms.
-function peerTime(rows, light, error) {
-    const ofPeer = rows.filter(row => row.light === light && row.program === 'peer');
-    const all = ofPeer.map(row => ({ ms: row.ms, error: row.errors[0] }));
-    const beaten = a => all.some(b => b !== a && b.ms <= a.ms && b.error <= a.error);
-    const front = all.filter(a => a.ms > 0 && !beaten(a)).sort((a, b) => a.ms - b.ms);
-    const i = front.findIndex((a, k) => k > 0 && front[k - 1].error >= error && error >= a.error);
-    if (i < 0) return null;
-    const along = Math.log(error / front[i - 1].error) / Math.log(front[i].error / front[i - 1].error);
-    return front[i - 1].ms * (front[i].ms / front[i - 1].ms) ** along;
+// Time over the peer's at the same error: along its front, the settings that no other beats in both, straight between logarithms.
+// Beyond the front's ends it is a bound, from the setting there.
+function ratio(row, error) {
+    if (row.program === 'peer') return '';
+    const ofPeer = rows.filter(other => other.light === row.light && other.program === 'peer');
+    const all = ofPeer.map(({ ms, errors: [e] }) => ({ ms, e }));
+    const front = all.filter(a => !all.some(b => b !== a && b.ms <= a.ms && b.e <= a.e)).sort((a, b) => a.ms - b.ms);
+    const i = front.findIndex(a => a.e <= error);
+    if (i === 0) return `> ${(row.ms / front[0].ms).toFixed(2)}`;
+    if (i < 0) return `< ${(row.ms / front.at(-1).ms).toFixed(2)}`;
+    const [a, b] = [front[i - 1], front[i]], along = Math.log(error / a.e) / Math.log(b.e / a.e);
+    return (row.ms / (a.ms * (b.ms / a.ms) ** along)).toFixed(2);
 }
 
+const git = (...all) => spawnSync('git', ['-C', dirname(tyndall), ...all], { encoding: 'utf8' }).stdout?.trim();
+const commit = (git('rev-parse', '--short', 'HEAD') || 'unknown') + (git('status', '--porcelain', '-uno') ? ' with changes' : '');
 const rows = [], folder = mkdtempSync(join(tmpdir(), 'tyndall-peer-'));
 let peerDriver, tyndallDriver;
 process.on('exit', () => rmSync(folder, { recursive: true }));
@@ -166,20 +170,14 @@ try {
 }
 
 const versions = JSON.parse(readFileSync(join(here, 'package.json'), 'utf8')).dependencies;
-const git = (...all) => spawnSync('git', ['-C', dirname(tyndall), ...all], { encoding: 'utf8' }).stdout?.trim();
-const commit = (git('rev-parse', '--short', 'HEAD') || 'unknown') + (git('status', '--porcelain', '-uno') ? ' with changes' : '');
-const ratio = (row, k) => {
-    const ms = row.program === 'peer' ? null : peerTime(rows, row.light, row.errors[k]);
-    return ms ? (row.ms / ms).toFixed(2) : '';
-};
 const table = `# Tyndall and three-good-godrays
 
 | light | program | setting | processor ms a frame | error, 1 frame | error, 8 frames | ratio, 1 frame | ratio, 8 frames |
 |---|---|---|---|---|---|---|---|
 ${rows.map(row => `| ${[row.light, row.program, row.name, row.ms.toFixed(1), ...row.errors.map(error => error.toFixed(4)),
-        ratio(row, 0), ratio(row, 1)].join(' | ')} |`).join('\n')}
+        ...row.errors.map(error => ratio(row, error))].join(' | ')} |`).join('\n')}
 
-Ratio: time over the peer's at the same error; none where that error is outside the peer's front. The peer's frames are all the same.
+Ratio: time over the peer's at the same error; a bound where that error is beyond the peer's front. The peer's frames are all alike.
 
 Processor: ${cpus()[0].model.trim()}, ${cpus().length} threads. Date: ${new Date().toISOString().slice(0, 10)}.
 Tyndall: commit ${commit}, ${tyndallDriver}.
