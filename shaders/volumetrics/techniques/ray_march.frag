@@ -56,7 +56,7 @@ layout(location = LAMPS_LOCATION + 1) out vec4 out_lamps_share;
 // Half of the smallest half-float number: a transmittance of this is stored as 0, and nothing behind it shows.
 const float OPAQUE = 2.98e-8;
 
-#if EPIPOLAR && GLASS
+#if EPIPOLAR && SUN_GLASS
 const uint LEAST_GLASS_STEPS = 4u;  // of a ray through coloured light, each of GLASS_POINTS
 #endif
 
@@ -293,12 +293,8 @@ void main() {
     float a = begin;
 #if EPIPOLAR
     uint steps = needed_steps(ray, begin, end);
-#if GLASS
-    bool coloured = LAMP_GLASS;
 #if SUN_GLASS && HAS_SUN
-    coloured = coloured || sun_epipolar_ray.glass;
-#endif
-    if (coloured) steps = max(steps, min(volumetrics.steps, LEAST_GLASS_STEPS));
+    if (sun_epipolar_ray.glass) steps = max(steps, min(volumetrics.steps, LEAST_GLASS_STEPS));
 #endif
     vec2 stepping = stepping_of(steps);
 #else
