@@ -91,6 +91,7 @@ class Game {
         if (ui_.paused) dt = 0;
         player_.look_speed = settings_.look_speed;
         player_.invert_look = settings_.invert_look;
+        player_.keys = settings_.keys;
         if (player_.update(ui_.paused || ui_.wants_keyboard() ? Input{} : input, dt, captured_))
             session_.renderer->invalidate_history();
 
@@ -138,12 +139,13 @@ class Game {
 
   private:
     void keys(const Input& input) {
-        if (input.pressed(Key::f1)) show_debug_ui(!ui_.visible);
         if (input.pressed(Key::f2)) screenshot_requested_ = true;
-        if (input.pressed(Key::escape)) escape();
         if (input.gamepad.menu) pause(!ui_.paused);
+        if (ui_.wants_keyboard()) return;  // letters and digits go to a text field, any key to the player's keys
+        if (input.pressed(Key::f1)) show_debug_ui(!ui_.visible);
+        if (input.pressed(Key::escape)) escape();
         if (ui_.paused && input.pressed(Key::q)) session_.context->request_close();
-        if (ui_.paused || ui_.wants_keyboard()) return;  // letters and digits go to a text field
+        if (ui_.paused) return;
         if (input.pressed(Key::h)) ui_.hud_visible = !ui_.hud_visible;
         if (input.pressed(Key::f) || input.gamepad.fly) {
             player_.set_flying(!player_.flying());
@@ -162,9 +164,8 @@ class Game {
             if (input.pressed(static_cast<Key>(static_cast<int>(Key::num_1) + i))) go_to(places[i]);
     }
 
-    /// Out of one thing at a time: a text field, the debug window, the menu, the game into the menu.
+    /// Out of one thing at a time: the debug window, the menu, the game into the menu.
     void escape() {
-        if (ui_.wants_keyboard()) return;
         if (ui_.visible && !captured_)
             ui_.visible = false;
         else
@@ -184,7 +185,7 @@ class Game {
         }
     }
 
-    void menu(const PauseMenuRequests& requests) {
+    void menu(const MenuRequests& requests) {
         if (requests.place) go_to(*requests.place);
         if (requests.debug_ui) show_debug_ui(true);
         if (requests.go_on || requests.place || requests.debug_ui) pause(false);

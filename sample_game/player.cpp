@@ -134,13 +134,18 @@ Player::Player(const Scene& scene) : world_(std::make_unique<World>(scene)) {
     } else if (!scene.cameras.empty()) {
         const glm::mat4 camera = node_pose(scene, scene.cameras.front().node);
         place(glm::vec3(camera[3]), -glm::vec3(camera[2]));
-        flying_ = true;
+        starts_flying_ = flying_ = true;
     }
     start_ = eye_;
     start_direction_ = direction();
 }
 
 Player::~Player() = default;
+
+void Player::restart() {
+    place(start_, start_direction_);
+    flying_ = starts_flying_;
+}
 
 void Player::place(glm::vec3 eye, glm::vec3 direction) {
     const glm::vec3 d = glm::normalize(direction);
@@ -179,11 +184,11 @@ bool Player::update(const Input& input, double dt, bool look_with_pointer) {
         return static_cast<float>(input.down(positive)) - static_cast<float>(input.down(negative));
     };
     const glm::vec2 stick = input.gamepad.left;  // +y is down
-    glm::vec2 move(axis(Key::d, Key::a) + stick.x, axis(Key::w, Key::s) - stick.y);
+    glm::vec2 move(axis(keys.right, keys.left) + stick.x, axis(keys.forward, keys.back) - stick.y);
     const glm::vec2 arrows(axis(Key::right, Key::left), axis(Key::down, Key::up));
     if (glm::length(move) > 1) move = glm::normalize(move);
     btKinematicCharacterController& character = *world_->character;
-    if (!flying_ && (input.pressed(Key::space) || input.gamepad.jump) && character.onGround()) character.jump();
+    if (!flying_ && (input.pressed(keys.jump) || input.gamepad.jump) && character.onGround()) character.jump();
 
     // Equal steps that end with the frame: with a fixed step, frames would hold two or three of them in turn.
     const int steps = std::max(1, static_cast<int>(std::ceil(dt / longest_step - 1e-6)));
@@ -226,17 +231,17 @@ void Player::turn(glm::vec2 angles) {
 }
 
 void Player::fly_step(const Input& input, glm::vec2 move, float dt) {
-    const float up = static_cast<float>(input.down(Key::space)) - static_cast<float>(input.down(Key::control)) +
+    const float up = static_cast<float>(input.down(keys.jump)) - static_cast<float>(input.down(Key::control)) +
                      input.gamepad.up - input.gamepad.down;
     const glm::vec3 right(std::cos(yaw_), 0, -std::sin(yaw_));
-    const float speed = input.down(Key::shift) ? fast_fly_speed : fly_speed;
+    const float speed = input.down(keys.run) ? fast_fly_speed : fly_speed;
     eye_ += (direction() * move.y + right * move.x + glm::vec3(0, up, 0)) * speed * dt;
 }
 
 void Player::walk_step(const Input& input, glm::vec2 move, float dt) {
     const glm::vec3 forward(-std::sin(yaw_), 0, -std::cos(yaw_)), right(std::cos(yaw_), 0, -std::sin(yaw_));
     const glm::vec3 velocity =
-        (forward * move.y + right * move.x) * (input.down(Key::shift) ? run_speed : walk_speed);
+        (forward * move.y + right * move.x) * (input.down(keys.run) ? run_speed : walk_speed);
     btKinematicCharacterController& character = *world_->character;
     const bool stood = character.onGround();
     const float before = world_->eye().y;

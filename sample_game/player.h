@@ -6,6 +6,7 @@
 
 #include "engine/platform/input.h"
 #include "engine/scene/scene.h"
+#include "sample_game/key_bindings.h"
 
 namespace tyndall {
 
@@ -19,8 +20,11 @@ class Player {
 
     /// Puts the eye at `eye`, looking along `direction`, at rest.
     void place(glm::vec3 eye, glm::vec3 direction);
+    /// To where the level puts a player at first, on foot where it says so.
+    void restart();
     float look_speed = 1;      ///< of pointer, stick and arrow keys
     bool invert_look = false;  ///< down looks up
+    KeyBindings keys;
 
     /// Turns, walks or flies for `dt` seconds in equal steps of at most 1/120 s, so that slow frames lead where
     /// fast ones do. `look` says whether the pointer turns the view. True (a camera cut): the player fell out of
@@ -46,6 +50,7 @@ class Player {
     glm::vec3 eye_{0};
     glm::vec3 start_{0};
     glm::vec3 start_direction_{0, 0, -1};
+    bool starts_flying_ = false;
     float yaw_ = 0, pitch_ = 0;
     float stair_offset_ = 0;  ///< m the eye lags behind the capsule, so that stairs are a ramp to it
     float last_drop_ = 0;  ///< m fallen in the last physics step; the controller drops more than that as it lands

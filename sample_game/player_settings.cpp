@@ -50,7 +50,10 @@ PlayerSettings load_player_settings(const fs::path& path) {
     if (!fs::exists(path)) return settings;
     SettingsSet set;
     set.add(player_settings_table(), &settings);
+    set.add(key_bindings_table(), &settings.keys);
     set.from_json(read_json(path), path.string());
+    if (const std::string problem = problem_of(settings.keys); !problem.empty())
+        throw Error(fmt::format("{}: {}", path.string(), problem));
     return settings;
 }
 
@@ -61,6 +64,7 @@ void save_player_settings(const fs::path& path, const PlayerSettings& settings) 
     PlayerSettings copy = settings;
     SettingsSet set;
     set.add(player_settings_table(), &copy);
+    set.add(key_bindings_table(), &copy.keys);
     write_text(path, set.to_json().dump(2) + "\n");
 }
 

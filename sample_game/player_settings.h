@@ -4,6 +4,7 @@
 #include <string>
 
 #include "engine/core/settings.h"
+#include "sample_game/key_bindings.h"
 
 namespace tyndall {
 
@@ -17,9 +18,10 @@ struct PlayerSettings {
     bool invert_look = false;
     bool full_screen = false;
     Quality quality = Quality::as_started;
+    KeyBindings keys;
     bool operator==(const PlayerSettings&) const = default;
 };
-[[nodiscard]] const SettingsTable& player_settings_table();
+[[nodiscard]] const SettingsTable& player_settings_table();  ///< all but the keys
 /// Name of the preset; empty: none.
 [[nodiscard]] std::string preset_of(Quality quality);
 

@@ -148,6 +148,8 @@ void GlfwInput::poll_gamepad() {
         pad.jump = edge(GLFW_GAMEPAD_BUTTON_A, gamepad_down_.jump);
         pad.fly = edge(GLFW_GAMEPAD_BUTTON_Y, gamepad_down_.fly);
         pad.menu = edge(GLFW_GAMEPAD_BUTTON_START, gamepad_down_.menu);
+        pad.use = edge(GLFW_GAMEPAD_BUTTON_X, gamepad_down_.use);
+        pad.lantern = edge(GLFW_GAMEPAD_BUTTON_B, gamepad_down_.lantern);
         const auto held = [&](int button) { return state.buttons[button] == GLFW_PRESS; };
         pad.held = {.up = held(GLFW_GAMEPAD_BUTTON_DPAD_UP),
                     .down = held(GLFW_GAMEPAD_BUTTON_DPAD_DOWN),

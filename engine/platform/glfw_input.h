@@ -25,7 +25,7 @@ class GlfwInput {
     GLFWwindow* window_;
     Input& input_;
     struct {
-        bool jump = false, fly = false, menu = false;
+        bool jump = false, fly = false, menu = false, use = false, lantern = false;
     } gamepad_down_;
 };
 

@@ -4,6 +4,7 @@
 #include <glm/vec2.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace tyndall {
 
@@ -79,6 +80,9 @@ enum class Key {
     f12,
     count
 };
+/// Of all keys, in their order: "a", "0", "page_up", "f1".
+[[nodiscard]] const std::vector<std::string>& key_names();
+
 enum class MouseButton { left, right, middle, count };
 
 /// Input since the last poll. "pressed" is the edge, "down" the level.
@@ -97,9 +101,10 @@ struct Input {
     std::string text;  ///< UTF-8 typed since the last poll
     struct Gamepad {
         bool present = false;
-        glm::vec2 left{0}, right{0};                   ///< sticks, -1..1, +y is down (GLFW), dead zone removed
-        bool jump = false, fly = false, menu = false;  ///< pressed edges of A, Y, Start
-        float up = 0, down = 0;                        ///< triggers 0..1
+        glm::vec2 left{0}, right{0};  ///< sticks, -1..1, +y is down (GLFW), dead zone removed
+        /// Pressed edges of A, Y, Start, X and B.
+        bool jump = false, fly = false, menu = false, use = false, lantern = false;
+        float up = 0, down = 0;  ///< triggers 0..1
         struct Menu {
             bool up = false, down = false, left = false, right = false, accept = false, back = false;
         } held;  ///< directional pad, A and B

@@ -73,7 +73,7 @@ DebugUi::DebugUi(ShaderLibrary& shaders) : context_(ImGui::CreateContext()) {
 DebugUi::~DebugUi() = default;
 
 bool DebugUi::wants_keyboard() const {
-    return visible && ImGui::GetIO().WantTextInput;
+    return (visible && ImGui::GetIO().WantTextInput) || rows_.waits_for_key();
 }
 bool DebugUi::wants_pointer() const {
     return visible && ImGui::GetIO().WantCaptureMouse;
@@ -181,16 +181,21 @@ DebugUi::Requests DebugUi::window(Session& session, LevelLogic& logic, float& sc
 
 DebugUi::Requests DebugUi::frame(Session& session, LevelLogic& logic, const Hud& hud, const Screen& screen,
                                  float& scale, double dt, bool pointer_is_free, PlayerSettings& player) {
-    input_.feed(session.context->input(), screen.size(), dt, pointer_is_free);
+    const Input& input = session.context->input();
+    input_.feed(input, screen.size(), dt, pointer_is_free);
     // Only in the menu: elsewhere the same keys and buttons walk.
-    ImGui::GetIO().ConfigFlags =
-        paused ? ImGuiConfigFlags_NavEnableKeyboard | ImGuiConfigFlags_NavEnableGamepad : ImGuiConfigFlags_None;
+    ImGui::GetIO().ConfigFlags = paused && !rows_.waits_for_key()
+                                     ? ImGuiConfigFlags_NavEnableKeyboard | ImGuiConfigFlags_NavEnableGamepad
+                                     : ImGuiConfigFlags_None;
     ImGui::NewFrame();
     Requests requests;
     if (hud_visible) hud_line(session, hud);
     shader_errors(*session.shaders);
     if (visible) requests = window(session, logic, scale);
-    if (paused) requests.menu = pause_menu(player, places);
+    if (paused)
+        requests.menu = pause_menu(player, rows_, input, places);
+    else
+        rows_.close();
     ImGui::Render();
     renderer_->draw(screen.framebuffer(), screen.size());
     return requests;

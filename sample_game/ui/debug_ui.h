@@ -29,7 +29,7 @@ class DebugUi {
     };
     struct Requests {
         bool screenshot = false;
-        PauseMenuRequests menu;
+        MenuRequests menu;
     };
     /// Builds and draws over the screen. `scale`: of the scene, which the debug window changes. `pointer_is_free`:
     /// not captured for mouse look. With `paused`, the menu is shown.
@@ -40,6 +40,7 @@ class DebugUi {
     bool hud_visible = true;          ///< the HUD line (H)
     bool paused = false;              ///< the menu (Esc)
     std::vector<std::string> places;  ///< that the menu goes to
+    /// A text field or a row of the player's keys takes what is typed.
     [[nodiscard]] bool wants_keyboard() const;
     [[nodiscard]] bool wants_pointer() const;
 
@@ -57,6 +58,7 @@ class DebugUi {
     ImguiInput input_;
     std::unique_ptr<ImguiRenderer> renderer_;
     std::unique_ptr<TextureViewer> viewer_;
+    PlayerRows rows_;
     std::string preset_path_ = "tyndall-preset.json";
     std::string preset_message_;
 };

@@ -260,6 +260,29 @@ TEST_F(SmallGame, ThePictureFollowsTheWindowAndTheSliderOfItsScale) {
     EXPECT_EQ(game_->stats().at("gl_messages"), 0);
 }
 
+/// Presses and releases one after another, each in a frame of its own.
+void keys(GameProcess& game, const std::vector<std::string>& names) {
+    for (const std::string& name : names) {
+        game.key(name);
+        game.frames(2);
+    }
+}
+
+TEST_F(SmallGame, AKeyThatIsChosenInTheMenuFlies) {
+    keys(*game_, {"Escape", "Down", "Down", "Down", "Down", "Down", "Down", "space"});  // the section of the keys
+    keys(*game_, {"Down", "space", "F1", "e", "Escape"});  // forward: not F1, but what was the key for using
+    const std::filesystem::path kept = game_->folder() / "tyndall/player.json";
+    const GameProcess::State start =
+        game_->state_when([&](const auto&) { return std::filesystem::exists(kept); }, "kept settings");
+    EXPECT_EQ(read_json(kept).at("key_forward"), "e");
+    EXPECT_EQ(read_json(kept).at("key_use"), "w");
+    game_->key_down("e");
+    game_->state_when([&](const auto& s) { return glm::distance(eye(s), eye(start)) > 1; }, "flight of 1 m");
+    game_->key_up("e");
+    quit(*game_);
+    EXPECT_EQ(game_->wait_for_exit(), 0);
+}
+
 TEST_F(SmallGame, TheMenuStopsTheGameAndKeepsWhatAPlayerSets) {
     const GameProcess::State start = game_->state();
     game_->key_down("Right");  // looks, without a mouse

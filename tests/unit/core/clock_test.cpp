@@ -42,7 +42,7 @@ TEST(Input, BeginPollForgetsEdgesAndKeepsLevels) {
     input.scroll = 1;
     input.text = "x";
     input.press_modifiers = Input::Modifiers{true, true, true};
-    input.gamepad = {true, {1, 0}, {0, 1}, true, true, true, 1, 1, {}};
+    input.gamepad = {true, {1, 0}, {0, 1}, true, true, true, true, true, 1, 1, {}};
     input.begin_poll();
     EXPECT_TRUE(input.down(Key::a));
     EXPECT_FALSE(input.pressed(Key::a));
@@ -53,9 +53,18 @@ TEST(Input, BeginPollForgetsEdgesAndKeepsLevels) {
     EXPECT_EQ(input.pointer_delta, glm::dvec2(0));
     EXPECT_EQ(input.scroll, 0);
     EXPECT_EQ(input.text, "");
-    EXPECT_FALSE(input.gamepad.jump || input.gamepad.fly || input.gamepad.menu);
+    EXPECT_FALSE(input.gamepad.jump || input.gamepad.fly || input.gamepad.menu || input.gamepad.use ||
+                 input.gamepad.lantern);
     EXPECT_TRUE(input.gamepad.present);
     EXPECT_EQ(input.gamepad.left, glm::vec2(1, 0));
+}
+
+TEST(Input, EveryKeyHasAName) {
+    ASSERT_EQ(key_names().size(), static_cast<std::size_t>(Key::count));
+    EXPECT_EQ(key_names().at(static_cast<std::size_t>(Key::num_0)), "0");
+    EXPECT_EQ(key_names().at(static_cast<std::size_t>(Key::page_up)), "page_up");
+    EXPECT_EQ(key_names().at(static_cast<std::size_t>(Key::comma)), "comma");
+    EXPECT_EQ(key_names().back(), "f12");
 }
 
 TEST(Input, ModifiersAreThoseOfThePress) {
