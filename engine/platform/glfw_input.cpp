@@ -130,6 +130,7 @@ void GlfwInput::on_button(int glfw_button, int action, int modifiers) {
 void GlfwInput::poll() {
     input_.begin_poll();
     glfwPollEvents();
+    if (std::exchange(pointer_changed_hands_, false)) input_.pointer_delta = glm::dvec2(0);
     poll_gamepad();
 }
 
@@ -172,6 +173,7 @@ void GlfwInput::capture_pointer(bool capture) {
     }
     glfwGetCursorPos(window_, &input_.pointer.x, &input_.pointer.y);  // the change itself is no motion
     input_.pointer_delta = glm::dvec2(0);
+    pointer_changed_hands_ = true;
 }
 
 }  // namespace tyndall

@@ -27,6 +27,7 @@ class GlfwInput {
     struct {
         bool jump = false, fly = false, menu = false, use = false, lantern = false;
     } gamepad_down_;
+    bool pointer_changed_hands_ = false;  ///< captured or freed since the last poll: it was moved to its place
 };
 
 }  // namespace tyndall
