@@ -15,9 +15,9 @@ constexpr double budget = 100;
 constexpr float least = 0.25f;
 
 /// Walks through frames that take `fixed` ms and `whole` ms more at scale 1, 5% more or less at random.
-class Walk {
+class Frames {
   public:
-    Walk(double fixed, double whole, float scale) : fixed_(fixed), whole_(whole), scale_(scale) {}
+    Frames(double fixed, double whole, float scale) : fixed_(fixed), whole_(whole), scale_(scale) {}
     void set_cost(double fixed, double whole) {
         fixed_ = fixed;
         whole_ = whole;
@@ -49,7 +49,7 @@ TEST(FrameBudget, IsHeldAndUsedWhateverFramesCost) {
     for (const double fixed : {0.0, 20.0, 60.0})
         for (const double whole : {150.0, 400.0, 1000.0, 3000.0})
             for (const float start : {least, 0.4f, 1.0f}) {
-                Walk walk(fixed, whole, start);
+                Frames walk(fixed, whole, start);
                 if (fixed + whole * least * least > 0.95 * budget) continue;  // not to be had
                 walk.frames(150);
                 EXPECT_LE(walk.time(), 1.1 * budget) << fixed << ' ' << whole << ' ' << start;
@@ -61,7 +61,7 @@ TEST(FrameBudget, IsHeldAndUsedWhateverFramesCost) {
 TEST(FrameBudget, ComesToRest) {
     for (const double fixed : {0.0, 40.0})
         for (const double whole : {150.0, 700.0}) {
-            Walk walk(fixed, whole, 0.5f);
+            Frames walk(fixed, whole, 0.5f);
             walk.frames(200);
             walk.frames(300);
             EXPECT_LE(walk.changes(), 3) << fixed << ' ' << whole;
@@ -69,7 +69,7 @@ TEST(FrameBudget, ComesToRest) {
 }
 
 TEST(FrameBudget, FollowsWhatBecomesDearOrCheap) {
-    Walk walk(20, 300, 0.5f);
+    Frames walk(20, 300, 0.5f);
     walk.frames(100);
     const float before = walk.scale();
     walk.set_cost(40, 900);
@@ -82,10 +82,10 @@ TEST(FrameBudget, FollowsWhatBecomesDearOrCheap) {
 }
 
 TEST(FrameBudget, EndsAtTheLeastAndAtTheWholePicture) {
-    Walk dear(500, 1000, 1);
+    Frames dear(500, 1000, 1);
     dear.frames(100);
     EXPECT_EQ(dear.scale(), least);
-    Walk cheap(1, 10, 0.3f);
+    Frames cheap(1, 10, 0.3f);
     cheap.frames(300);
     EXPECT_EQ(cheap.scale(), 1);
 }
