@@ -8,6 +8,7 @@
 #include <cmath>
 #include <filesystem>
 #include <functional>
+#include <glm/gtc/constants.hpp>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -38,6 +39,9 @@ constexpr const char* help =
     "T: time of day   G: fog   V: technique   F1: settings   F2: picture   H: hide this\n"
     "Esc: pause, player's settings, quit";
 
+constexpr float sway = glm::radians(7.0f);  // of a view that nobody walks in
+constexpr double sway_period = 70;          // s
+
 const std::array<std::string, 7> places{"LocalPM", "Close", "LocalLights", "Sun", "Depth", "Balance", "Glass"};
 
 /// Real seconds since the last call, for what people read; 0 at first, for the first frame builds shaders.
@@ -59,6 +63,13 @@ std::string unused_screenshot_name() {
         if (std::string name = fmt::format("tyndall-{:03}.png", i); !std::filesystem::exists(name)) return name;
 }
 
+/// Slowly turning to and fro.
+View swaying_view(const WalkScript::View& view, double time, float fov, float aspect) {
+    const float angle = sway * static_cast<float>(std::sin(time * glm::two_pi<double>() / sway_period));
+    const glm::vec3 way = glm::angleAxis(angle, glm::vec3(0, 1, 0)) * (view.look - view.eye);
+    return look_at(view.eye, view.eye + way, fov, game_znear, aspect);
+}
+
 class Game {
   public:
     Game(Session& session, const GameOptions& options)
@@ -73,10 +84,9 @@ class Game {
         session.options.progressive = true;
         if (options.frame_budget > 0 && options.fixed_step == 0)
             budget_.emplace(options.frame_budget, std::min(least_kept_scale, scale_), 1.0f);
-        for (const std::string& place : places)
-            if (session.scene.find_camera(place) != nullptr) ui_.places.push_back(place);
         session.context->set_full_screen(settings_.full_screen);
-        say(options.told.empty() ? help : options.told + "\n" + help, help_seconds);
+        ui_.has_title = options.walk.has_value();
+        enter(options.begin);
     }
 
     void frame(double dt) {
@@ -92,22 +102,18 @@ class Game {
         player_.look_speed = settings_.look_speed;
         player_.invert_look = settings_.invert_look;
         player_.keys = settings_.keys;
-        if (player_.update(ui_.paused || ui_.wants_keyboard() ? Input{} : input, dt, captured_))
-            session_.renderer->invalidate_history();
-
         time_ += dt;
         session_.shaders->reload_changed();
         animate(session_.scene, time_);
-        const float aspect = static_cast<float>(window.x) / static_cast<float>(window.y);
-        session_.draw(
-            make_view(player_.camera_to_world(), glm::radians(settings_.field_of_view), game_znear, aspect), time_);
+        move(ui_.paused || ui_.wants_keyboard() ? Input{} : input, dt);
+        session_.draw(view(static_cast<float>(window.x) / static_cast<float>(window.y)), time_);
         screen_.show(*session_.renderer, window);
         if (screenshot_requested_) screenshot();
 
         const double seconds = stopwatch_.lap();
         message_seconds_left_ -= seconds;
         frame_ms_ = frame_ms_ == 0 ? seconds * 1e3 : frame_ms_ + (seconds * 1e3 - frame_ms_) * 0.1;
-        DebugUi::Hud hud{where(), frame_ms_, message_seconds_left_ > 0 ? message_ : std::string{}};
+        DebugUi::Hud hud{where(), frame_ms_, message_seconds_left_ > 0 ? message_ : std::string{}, walk_banner()};
         if (budget_ && seconds > 0) scale_ = budget_->next(scale_, seconds * 1e3);
         const float scale = scale_;
         const PlayerSettings before = settings_;
@@ -120,8 +126,15 @@ class Game {
         context.present(screen_.framebuffer(), screen_.size());
     }
 
-    /// As when the menu closes.
-    void keep_settings() { pause(false); }
+    void keep_settings() {
+        if (settings_ == kept_) return;
+        try {
+            save_player_settings(options_.player_path, settings_);
+            kept_ = settings_;
+        } catch (const Error& e) {
+            say(std::string("not kept: ") + e.what());
+        }
+    }
     [[nodiscard]] const Screen& screen() const { return screen_; }
 
     [[nodiscard]] std::string stats() const {
@@ -132,21 +145,86 @@ class Game {
                            {"field_of_view", settings_.field_of_view},
                            {"flying", player_.flying()},
                            {"on_ground", player_.on_ground()}};
+        stats["stage"] = stage_ == Stage::title ? "title" : stage_ == Stage::walk ? "walk" : "explore";
+        if (walk_)
+            stats["walk"] = {{"lit", walk_->lit()}, {"lantern", walk_->lantern()}, {"ending", walk_->ending()}};
         stats["window"] = {screen_.size().x, screen_.size().y};
         stats["gl_messages"] = debug_messages().count;
         return stats.dump(2) + "\n";
     }
 
   private:
+    /// From its beginning, in the light that the level was made with.
+    void enter(Stage stage) {
+        stage_ = stage;
+        ui_.title = stage == Stage::title;
+        ui_.paused = false;
+        ui_.hud_visible = ui_.has_level = stage == Stage::explore;
+        ui_.places.clear();
+        for (const std::string& place : places)
+            if (stage == Stage::explore && session_.scene.find_camera(place) != nullptr)
+                ui_.places.push_back(place);
+        walk_.reset();
+        logic_.set_day_time(session_.scene, 0);
+        logic_.set_fog(session_.scene, 0);
+        if (options_.walk) options_.walk->restore(session_.scene);
+        player_.restart();
+        if (stage == Stage::walk) walk_.emplace(options_.walk->script());
+        capture(false);
+        session_.renderer->invalidate_history();
+        say(options_.told.empty() ? help : options_.told + "\n" + help, help_seconds);
+    }
+
+    /// Who walks, and the light that he plays with.
+    void move(const Input& input, double dt) {
+        if (stage_ == Stage::title) return;
+        if (!(walk_ && walk_->ending()) && player_.update(input, dt, captured_))
+            session_.renderer->invalidate_history();
+        if (!walk_) return;
+        const bool ended = walk_->ending();
+        walk_->update({.eye = player_.eye(),
+                       .direction = player_.direction(),
+                       .use = input.pressed(settings_.keys.use) || input.gamepad.use,
+                       .lantern = input.pressed(settings_.keys.lantern) || input.gamepad.lantern},
+                      dt);
+        if (walk_->over()) return enter(Stage::title);
+        if (walk_->ending() != ended) session_.renderer->invalidate_history();
+        options_.walk->apply(session_.scene, *walk_, player_.camera_to_world(), time_);
+    }
+
+    [[nodiscard]] View view(float aspect) const {
+        const float fov = glm::radians(settings_.field_of_view);
+        if (stage_ == Stage::title) return swaying_view(options_.walk->script().title, time_, fov, aspect);
+        if (walk_ && walk_->ending()) return swaying_view(options_.walk->script().end, time_, fov, aspect);
+        return make_view(player_.camera_to_world(), fov, game_znear, aspect);
+    }
+
+    [[nodiscard]] std::optional<WalkBanner> walk_banner() const {
+        if (!walk_) return std::nullopt;
+        const auto named = [&](const std::string& words) { return with_keys(words, settings_.keys, by_gamepad_); };
+        return WalkBanner{named(walk_->words()), named(walk_->prompt()), walk_->lit(),
+                          walk_->ending() ? 0 : options_.walk->script().places.size()};
+    }
+
     void keys(const Input& input) {
+        const Input::Gamepad& pad = input.gamepad;
+        if (input.keys_pressed.any()) by_gamepad_ = false;
+        if (pad.jump || pad.use || pad.lantern || pad.left != glm::vec2(0)) by_gamepad_ = true;
         if (input.pressed(Key::f2)) screenshot_requested_ = true;
-        if (input.gamepad.menu) pause(!ui_.paused);
+        if (stage_ == Stage::title) return;
+        if (pad.menu) pause(!ui_.paused);
         if (ui_.wants_keyboard()) return;  // letters and digits go to a text field, any key to the player's keys
         if (input.pressed(Key::f1)) show_debug_ui(!ui_.visible);
         if (input.pressed(Key::escape)) escape();
         if (ui_.paused && input.pressed(Key::q)) session_.context->request_close();
         if (ui_.paused) return;
         if (input.pressed(Key::h)) ui_.hud_visible = !ui_.hud_visible;
+        if (input.pressed(Key::v)) next_technique();
+        if (stage_ == Stage::explore) explore(input);
+    }
+
+    /// What would take the walk's light or way from it.
+    void explore(const Input& input) {
         if (input.pressed(Key::f) || input.gamepad.fly) {
             player_.set_flying(!player_.flying());
             say(player_.flying() ? "flying" : "walking");
@@ -159,7 +237,6 @@ class Game {
             logic_.set_fog(session_.scene, (logic_.fog() + 1) % logic_.fogs().size());
             say("fog: " + logic_.fogs()[logic_.fog()].name);
         }
-        if (input.pressed(Key::v)) next_technique();
         for (int i = 0; i < 7; ++i)
             if (input.pressed(static_cast<Key>(static_cast<int>(Key::num_1) + i))) go_to(places[i]);
     }
@@ -175,20 +252,22 @@ class Game {
     /// The world stands still behind the menu.
     void pause(bool on) {
         ui_.paused = on;
-        if (on) return capture(false);
-        if (settings_ == kept_) return;
-        try {
-            save_player_settings(options_.player_path, settings_);
-            kept_ = settings_;
-        } catch (const Error& e) {
-            say(std::string("not kept: ") + e.what());
-        }
+        if (on)
+            capture(false);
+        else
+            keep_settings();
     }
 
     void menu(const MenuRequests& requests) {
         if (requests.place) go_to(*requests.place);
         if (requests.debug_ui) show_debug_ui(true);
-        if (requests.go_on || requests.place || requests.debug_ui) pause(false);
+        if (requests.go_on || requests.place || requests.debug_ui || requests.title) pause(false);
+        if (requests.title) enter(Stage::title);
+        if (requests.walk) {
+            enter(Stage::walk);
+            capture(true);
+        }
+        if (requests.explore) enter(Stage::explore);
         if (requests.quit) session_.context->request_close();
     }
 
@@ -205,7 +284,7 @@ class Game {
 
     void pointer(const Input& input) {
         const bool clicked = input.buttons_pressed[static_cast<std::size_t>(MouseButton::left)];
-        if (clicked && !captured_ && !ui_.paused && !ui_.wants_pointer()) capture(true);
+        if (clicked && !captured_ && !ui_.paused && !ui_.title && !ui_.wants_pointer()) capture(true);
     }
 
     void capture(bool on) {
@@ -279,7 +358,9 @@ class Game {
     PlayerSettings settings_ = options_.player, kept_ = settings_;
     std::optional<FrameBudget> budget_;
     decltype(Input::keys_pressed) early_keys_ = options_.early_keys;
-    bool captured_ = false, screenshot_requested_ = false;
+    Stage stage_ = Stage::explore;
+    std::optional<Walk> walk_;
+    bool captured_ = false, by_gamepad_ = false, screenshot_requested_ = false;
     double time_ = 0, message_seconds_left_ = 0, frame_ms_ = 0;
     Stopwatch stopwatch_;
     std::string message_;

@@ -4,11 +4,17 @@
 #include <optional>
 
 #include "sample_game/player_settings.h"
+#include "sample_game/walk/walk_scene.h"
 #include "session/session.h"
 
 namespace tyndall {
 
+/// What a player sees: the title, from which the others are chosen; the walk, which has an end; or the level alone.
+enum class Stage { title, walk, explore };
+
 struct GameOptions {
+    Stage begin = Stage::explore;
+    std::optional<WalkScene> walk = {};               ///< of the scene; without one there is only Stage::explore
     float scale = 1;                                  ///< of the scene: PlayChoice
     double frame_budget = 0;                          ///< ms: PlayChoice; not with a fixed step
     std::string told;                                 ///< shown at first: PlayChoice

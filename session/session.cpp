@@ -14,7 +14,8 @@ void DrawOptions::add_to(CLI::App& command, const std::string& default_scene, co
     command.add_option("--context", context, "auto, egl, osmesa or glfw")->capture_default_str();
 }
 
-Session::Session(const DrawOptions& o, bool window, const Announce& announce) : size(o.pixels()) {
+Session::Session(const DrawOptions& o, bool window, const Announce& announce, const Furnish& furnish)
+    : size(o.pixels()) {
     const auto tell = [&](const std::string& doing) {
         if (announce) announce(*this, doing);
     };
@@ -37,6 +38,7 @@ Session::Session(const DrawOptions& o, bool window, const Announce& announce) : 
         add_missing_sun(scene);
         animate(scene, 0);
     }
+    if (furnish) furnish(scene);
     startup.did("scene");
     tell("uploading meshes and pictures");
     timer = std::make_unique<gl::GpuTimer>(gl::TimerMode::off);

@@ -28,8 +28,10 @@ class Session {
   public:
     /// What is about to be done, while context and shaders are there already.
     using Announce = std::function<void(Session&, const std::string& doing)>;
+    /// Adds to the scene before it is uploaded.
+    using Furnish = std::function<void(Scene&)>;
     /// `window` asks for a visible one. Throws UsageError or Error.
-    Session(const DrawOptions& options, bool window, const Announce& announce = {});
+    Session(const DrawOptions& options, bool window, const Announce& announce = {}, const Furnish& furnish = {});
 
     SettingsSet settings;  ///< those of `options` and of `volumetrics`, by key
     FrameOptions options;

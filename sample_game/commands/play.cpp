@@ -1,6 +1,9 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cstdlib>
+#include <map>
 #include <memory>
 #include <optional>
 
@@ -22,6 +25,16 @@ bool has_display() {
         return value != nullptr && *value != '\0';
     };
     return set("DISPLAY") || set("WAYLAND_DISPLAY");
+}
+
+const std::map<std::string, Stage> stages{
+    {"title", Stage::title}, {"walk", Stage::walk}, {"explore", Stage::explore}};
+
+/// The title is for who starts the sample level and asks for nothing that a title would stand before.
+bool wants_title(const CLI::App& command) {
+    constexpr std::array choices{"SCENE",    "--animation",  "--media",      "--add-media",
+                                 "--frames", "--fixed-step", "--screenshot", "--stats"};
+    return std::ranges::none_of(choices, [&](const char* option) { return command.count(option) > 0; });
 }
 
 }  // namespace
@@ -46,6 +59,10 @@ void add_play_command(CLI::App& app) {
         ->add_option("--frame-budget", o->frame_budget,
                      "ms that a frame may take: the scale follows, until it is set by hand; without a GPU 100")
         ->check(number_in(1, 10000));
+    command
+        ->add_option("--begin", o->game.begin,
+                     "title, walk or explore (title: the sample level, without options that choose what is drawn)")
+        ->transform(CLI::CheckedTransformer(stages));
     command->add_option("--frames", o->game.frames, "quit after so many frames")->check(CLI::Range(1, 1000000000));
     command->add_option("--fixed-step", o->game.fixed_step, "seconds per frame instead of the wall clock")
         ->check(number_in(1e-4, 1));
@@ -59,7 +76,7 @@ void add_play_command(CLI::App& app) {
     command->callback([o, command] {
         if (!has_display() && parse_context_kind(o->draw.context) == ContextKind::automatic) {
             for (const char* option :
-                 {"--frames", "--fixed-step", "--screenshot", "--stats", "--scale", "--frame-budget"})
+                 {"--begin", "--frames", "--fixed-step", "--screenshot", "--stats", "--scale", "--frame-budget"})
                 if (command->count(option) > 0) throw Error(fmt::format("no display, which {} needs", option));
             fmt::print(stderr, "tyndall: no display, so the fly-through is rendered into {}\n",
                        o->path.out.string());
@@ -94,6 +111,13 @@ void add_play_command(CLI::App& app) {
         } catch (const Error& e) {
             o->game.told = fmt::format("{}: the player's settings are the defaults\n", e.what());
         }
+        if (command->count("--begin") == 0 && wants_title(*command)) o->game.begin = Stage::title;
+        const std::filesystem::path walk = walk_path(o->draw.scene);
+        std::optional<WalkScript> script;
+        if (o->game.begin != Stage::explore) script = load_walk(walk);
+        const auto furnish = [&](Scene& scene) {
+            if (script) o->game.walk.emplace(*script, scene, walk.string());
+        };
         std::optional<LoadingPicture> picture;
         float share = 0;
         const auto choose = [&](Session& opening) {
@@ -111,13 +135,14 @@ void add_play_command(CLI::App& app) {
             o->game.told += choice.told;
             opening.context->show_window(choice.window);
         };
-        Session session(o->draw, true, [&](Session& opening, const std::string& doing) {
+        const auto show = [&](Session& opening, const std::string& doing) {
             if (!picture) {
                 choose(opening);
                 picture.emplace(*opening.context, *opening.shaders);
             }
             picture->show(doing, share += 0.25f);
-        });
+        };
+        Session session(o->draw, true, show, furnish);
         o->game.early_keys = picture->keys_pressed();
         picture.reset();  // what it has shown stays until the first frame
         play(session, o->game);

@@ -115,9 +115,11 @@ void DebugUi::shader_errors(const ShaderLibrary& shaders) const {
 void DebugUi::level(Session& session, LevelLogic& logic, float& scale) {
     if (!ImGui::CollapsingHeader("Level", ImGuiTreeNodeFlags_DefaultOpen)) return;
     ImGui::PushItemWidth(ImGui::GetContentRegionAvail().x * 0.5f);
-    choose("Time of day (T)", logic.day_times(), logic.day_time(),
-           [&](std::size_t i) { logic.set_day_time(session.scene, i); });
-    choose("Fog (G)", logic.fogs(), logic.fog(), [&](std::size_t i) { logic.set_fog(session.scene, i); });
+    if (has_level) {
+        choose("Time of day (T)", logic.day_times(), logic.day_time(),
+               [&](std::size_t i) { logic.set_day_time(session.scene, i); });
+        choose("Fog (G)", logic.fogs(), logic.fog(), [&](std::size_t i) { logic.set_fog(session.scene, i); });
+    }
     ImGui::SliderFloat("Scale of the picture", &scale, static_cast<float>(least_scale), 1, "%.2f",
                        ImGuiSliderFlags_AlwaysClamp);
     ImGui::PopItemWidth();
@@ -183,17 +185,21 @@ DebugUi::Requests DebugUi::frame(Session& session, LevelLogic& logic, const Hud&
                                  float& scale, double dt, bool pointer_is_free, PlayerSettings& player) {
     const Input& input = session.context->input();
     input_.feed(input, screen.size(), dt, pointer_is_free);
-    // Only in the menu: elsewhere the same keys and buttons walk.
-    ImGui::GetIO().ConfigFlags = paused && !rows_.waits_for_key()
+    // Only in menus: elsewhere the same keys and buttons walk.
+    const bool menu = paused || title;
+    ImGui::GetIO().ConfigFlags = menu && !rows_.waits_for_key()
                                      ? ImGuiConfigFlags_NavEnableKeyboard | ImGuiConfigFlags_NavEnableGamepad
                                      : ImGuiConfigFlags_None;
     ImGui::NewFrame();
     Requests requests;
-    if (hud_visible) hud_line(session, hud);
+    if (hud_visible && !title) hud_line(session, hud);
+    if (hud.walk && !paused) walk_banner(*hud.walk);
     shader_errors(*session.shaders);
     if (visible) requests = window(session, logic, scale);
-    if (paused)
-        requests.menu = pause_menu(player, rows_, input, places);
+    if (title)
+        requests.menu = title_menu_.frame(player, rows_, input);
+    else if (paused)
+        requests.menu = pause_menu(player, rows_, input, places, has_title);
     else
         rows_.close();
     ImGui::Render();

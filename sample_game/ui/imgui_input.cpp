@@ -58,7 +58,7 @@ void ImguiInput::feed(const Input& input, glm::ivec2 size, double dt, bool point
     navigate(ImGuiNavInput_DpadDown, pad.down);
     navigate(ImGuiNavInput_DpadLeft, pad.left);
     navigate(ImGuiNavInput_DpadRight, pad.right);
-    navigate(ImGuiNavInput_Activate, pad.accept);
+    navigate(ImGuiNavInput_Activate, pad.accept || io.KeysDown[static_cast<int>(Key::enter)]);
     navigate(ImGuiNavInput_Cancel, pad.back);
     io.KeyShift = modifiers.shift;
     io.KeyCtrl = modifiers.control;

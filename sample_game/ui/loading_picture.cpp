@@ -4,17 +4,13 @@
 
 #include <algorithm>
 
+#include "sample_game/ui/banner.h"
+
 namespace tyndall {
 namespace {
 
-const ImVec4 amber{0.95f, 0.65f, 0.25f, 1}, pale{0.85f, 0.8f, 0.72f, 1};
 constexpr ImGuiWindowFlags flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoBackground |
                                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoInputs;
-
-void centred(const char* text, const ImVec4& color) {
-    ImGui::SetCursorPosX((ImGui::GetWindowWidth() - ImGui::CalcTextSize(text).x) / 2);
-    ImGui::TextColored(color, "%s", text);
-}
 
 }  // namespace
 
@@ -45,10 +41,10 @@ void LoadingPicture::show(const std::string& doing, float share) {
     if (ImGui::Begin("loading", nullptr, flags)) {
         ImGui::SetCursorPosY(size.y * 0.42f);
         ImGui::SetWindowFontScale(3);
-        centred("Tyndall", amber);
+        centred("Tyndall", amber());
         ImGui::SetWindowFontScale(1);
-        centred(doing.c_str(), pale);
-        ImGui::PushStyleColor(ImGuiCol_PlotHistogram, amber);
+        centred(doing, pale());
+        ImGui::PushStyleColor(ImGuiCol_PlotHistogram, amber());
         const float width = std::min(size.x * 0.5f, 320.0f);
         ImGui::SetCursorPosX((size.x - width) / 2);
         ImGui::ProgressBar(share, ImVec2(width, 6), "");

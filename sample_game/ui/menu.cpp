@@ -1,12 +1,13 @@
 #include "sample_game/ui/menu.h"
 
 #include <imgui.h>
+#include <imgui_internal.h>
 
 #include <algorithm>
 
 namespace tyndall {
 
-float begin_menu(const char* title) {
+float begin_menu(const char* title, bool title_bar) {
     const ImVec2 screen = ImGui::GetIO().DisplaySize;
     const float width = std::min(screen.x - 24, 360.0f);
     ImGui::SetNextWindowPos(ImVec2(screen.x / 2, screen.y / 2), ImGuiCond_Always, ImVec2(0.5f, 0.5f));
@@ -14,7 +15,10 @@ float begin_menu(const char* title) {
     ImGui::SetNextWindowFocus();
     ImGui::Begin(title, nullptr,
                  ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings |
-                     ImGuiWindowFlags_AlwaysAutoResize);
+                     ImGuiWindowFlags_AlwaysAutoResize |
+                     (title_bar ? ImGuiWindowFlags_None : ImGuiWindowFlags_NoTitleBar));
+    // What keys and gamepad would press is seen, and pressed, before they have moved.
+    if (ImGui::IsWindowAppearing()) ImGui::GetCurrentContext()->NavDisableHighlight = false;
     return width;
 }
 

@@ -13,7 +13,7 @@ struct MenuRequests {
 
 /// A window in the middle of the picture, for pointer, keyboard and gamepad. Within a Dear ImGui frame; what is in
 /// it follows, then ImGui::End. Its width, px.
-float begin_menu(const char* title);
+float begin_menu(const char* title, bool title_bar = true);
 /// A button as wide as the menu.
 bool menu_button(const char* text);
 

@@ -5,7 +5,7 @@
 namespace tyndall {
 
 MenuRequests pause_menu(PlayerSettings& settings, PlayerRows& rows, const Input& input,
-                        const std::vector<std::string>& places) {
+                        const std::vector<std::string>& places, bool to_title) {
     MenuRequests requests;
     const float width = begin_menu("Tyndall");
     requests.go_on = menu_button("Go on  (Esc)");
@@ -20,6 +20,7 @@ MenuRequests pause_menu(PlayerSettings& settings, PlayerRows& rows, const Input&
     }
     if (!places.empty()) ImGui::Separator();
     requests.debug_ui = menu_button("All settings, passes, textures  (F1)");
+    if (to_title) requests.title = menu_button("Back to the title");
     requests.quit = menu_button("Quit  (Q)");
     ImGui::End();
     return requests;

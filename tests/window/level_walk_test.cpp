@@ -2,28 +2,23 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <glm/gtc/constants.hpp>
 
-#include "sample_game/player.h"
 #include "support/command.h"
+#include "support/walker.h"
 
-namespace tyndall {
+namespace tyndall::test {
 namespace {
 
-float ground_distance(glm::vec3 a, glm::vec3 b) {
-    return std::hypot(a.x - b.x, a.z - b.z);
-}
-
 TEST(Level, EveryPlaceIsReachedOnFoot) {
-    Scene level = load_gltf(test::level());
-    const Animation path = *level.find_animation("flythrough");
-    const int camera = level.find_camera("flythrough")->node;
+    Scene scene = load_gltf(level());
+    const Animation path = *scene.find_animation("flythrough");
+    const int camera = scene.find_camera("flythrough")->node;
     const auto on_path = [&](float time) {
-        animate_one(level, path, time);
-        return glm::vec3(level.nodes[static_cast<std::size_t>(camera)].world[3]);
+        animate_one(scene, path, time);
+        return glm::vec3(scene.nodes[static_cast<std::size_t>(camera)].world[3]);
     };
-    animate(level, 0);
-    Player player(level);
+    animate(scene, 0);
+    Player player(scene);
     constexpr double dt = 1.0 / 30;
     constexpr int patience = 90;  // frames without coming nearer
     auto place = path.places.begin();
@@ -37,13 +32,9 @@ TEST(Level, EveryPlaceIsReachedOnFoot) {
             while (place != path.places.end() && time >= place->time) ++place;
             if (time > path.duration) break;
         }
-        const glm::vec3 way = target - player.eye();
-        const float yaw = std::atan2(-player.direction().x, -player.direction().z);
-        Input input;
-        input.keys_down[static_cast<std::size_t>(Key::w)] = true;
-        input.pointer_delta.x = -std::remainder(std::atan2(-way.x, -way.z) - yaw, glm::two_pi<float>()) / 0.0022;
         const float height = player.eye().y;
-        ASSERT_FALSE(player.update(input, dt, true)) << "fell out of the level on the way to " << place->name;
+        ASSERT_FALSE(player.update(towards(player, target), dt, true))
+            << "fell out of the level on the way to " << place->name;
         ASSERT_LT(std::abs(player.eye().y - height), 0.3f) << "a jerk on the way to " << place->name;
         const float distance = ground_distance(player.eye(), target);
         waited = distance < nearest - 0.01f ? 0 : waited + 1;
@@ -54,4 +45,4 @@ TEST(Level, EveryPlaceIsReachedOnFoot) {
 }
 
 }  // namespace
-}  // namespace tyndall
+}  // namespace tyndall::test

@@ -10,6 +10,7 @@
 #include "sample_game/ui/settings_sections.h"
 #include "support/game_process.h"
 #include "support/scenes.h"
+#include "support/walk_files.h"
 #include "volumetrics/settings.h"
 
 namespace tyndall::test {
@@ -312,6 +313,61 @@ TEST_F(SmallGame, TheMenuStopsTheGameAndKeepsWhatAPlayerSets) {
                 wider.stats.at("player").at("field_of_view").get<double>(), 1e-3);
     quit(*game_);
     EXPECT_EQ(game_->wait_for_exit(), 0);
+}
+
+/// A small level with a walk between two lamps; a player flies there, from the camera.
+class Title : public ::testing::Test {
+  protected:
+    void SetUp() override {
+        if (const std::string reason = GameProcess::missing(); !reason.empty()) GTEST_SKIP() << reason;
+        write_scene(folder_ / "scene.gltf", {.sun = true,
+                                             .lamps = {{{0, 1, 5}}, {{0, 1, -5}}},
+                                             .media = R"([{"shape":"global","scattering":[0.01,0.01,0.01]}])"});
+        write_text(folder_ / "scene.walk.json", walk_of_two_lamps().dump());
+        game_.emplace(std::vector<std::string>{(folder_ / "scene.gltf").string(), "--begin", "title", "--size",
+                                               "448x540", "--scale", "0.25", "--technique", "off"});
+    }
+    GameProcess::State stage(const std::string& name) {
+        return game_->state_when([&](const auto& s) { return s.stats.at("stage") == name; }, name);
+    }
+    TemporaryFolder folder_;
+    std::optional<GameProcess> game_;
+};
+
+TEST_F(Title, TheWalkIsPlayedToItsEndByKeysAlone) {
+    const auto lit = [](const auto& s) { return s.stats.at("walk").at("lit").template get<int>(); };
+    stage("title");
+    keys(*game_, {"space"});
+    stage("walk");
+    keys(*game_, {"r"});
+    EXPECT_TRUE(game_->state().stats.at("walk").at("lantern").get<bool>());
+    for (const int lamp : {1, 2}) {
+        game_->key_down("w");
+        const float there = lamp == 1 ? 7.5f : -2.5f;
+        game_->state_when([&](const auto& s) { return eye(s).z < there; }, "lamp");
+        game_->key("e");
+        game_->key_up("w");
+        game_->frames(2);
+        EXPECT_EQ(lit(game_->state()), lamp);
+    }
+    game_->state_when([](const auto& s) { return s.stats.at("walk").at("ending").template get<bool>(); }, "ending");
+    stage("title");  // after the last words
+    keys(*game_, {"Down", "Down"});
+    game_->key("Down");
+    game_->key("space");
+    EXPECT_EQ(game_->wait_for_exit(), 0);
+    EXPECT_EQ(game_->stats().at("gl_messages"), 0);
+}
+
+TEST_F(Title, SettingsAndExploringAndBack) {
+    keys(*game_, {"Down", "Down", "Return"});  // settings
+    keys(*game_, {"Down", "space", "Right", "space", "Escape"});
+    const std::filesystem::path kept = game_->folder() / "tyndall/player.json";
+    game_->state_when([&](const auto&) { return std::filesystem::exists(kept); }, "kept settings");
+    keys(*game_, {"Down", "Return"});
+    stage("explore");
+    keys(*game_, {"Escape", "Down", "Down", "Down", "Down", "Down", "Down", "Down", "Down", "space"});
+    stage("title");
 }
 
 }  // namespace
