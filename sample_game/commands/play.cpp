@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
-#include <map>
 #include <memory>
 #include <optional>
 
@@ -27,8 +26,12 @@ bool has_display() {
     return set("DISPLAY") || set("WAYLAND_DISPLAY");
 }
 
-const std::map<std::string, Stage> stages{
-    {"title", Stage::title}, {"walk", Stage::walk}, {"explore", Stage::explore}};
+Stage parse_stage(const std::string& name) {
+    if (name == "title") return Stage::title;
+    if (name == "walk") return Stage::walk;
+    if (name == "explore") return Stage::explore;
+    throw UsageError(fmt::format("--begin {}: expected title, walk or explore", name));
+}
 
 /// The title is for who starts the sample level and asks for nothing that a title would stand before.
 bool wants_title(const CLI::App& command) {
@@ -43,6 +46,7 @@ void add_play_command(CLI::App& app) {
     struct Options {
         DrawOptions draw;
         GameOptions game;
+        std::optional<std::string> begin;
         std::optional<float> scale;
         std::optional<double> frame_budget;
         FlythroughOptions path{.out = "tyndall-flythrough"};
@@ -59,10 +63,9 @@ void add_play_command(CLI::App& app) {
         ->add_option("--frame-budget", o->frame_budget,
                      "ms that a frame may take: the scale follows, until it is set by hand; without a GPU 100")
         ->check(number_in(1, 10000));
-    command
-        ->add_option("--begin", o->game.begin,
-                     "title, walk or explore (title: the sample level, without options that choose what is drawn)")
-        ->transform(CLI::CheckedTransformer(stages));
+    command->add_option("--begin", o->begin,
+                        "title, walk or explore (title: the sample level, without options that choose what is "
+                        "drawn)");
     command->add_option("--frames", o->game.frames, "quit after so many frames")->check(CLI::Range(1, 1000000000));
     command->add_option("--fixed-step", o->game.fixed_step, "seconds per frame instead of the wall clock")
         ->check(number_in(1e-4, 1));
@@ -111,10 +114,15 @@ void add_play_command(CLI::App& app) {
         } catch (const Error& e) {
             o->game.told = fmt::format("{}: the player's settings are the defaults\n", e.what());
         }
-        if (command->count("--begin") == 0 && wants_title(*command)) o->game.begin = Stage::title;
-        const std::filesystem::path walk = walk_path(o->draw.scene);
+        const Stage unasked = wants_title(*command) ? Stage::title : Stage::explore;
+        o->game.begin = o->begin ? parse_stage(*o->begin) : unasked;
         std::optional<WalkScript> script;
-        if (o->game.begin != Stage::explore) script = load_walk(walk);
+        const std::filesystem::path walk = walk_path(o->draw.scene);
+        if (o->game.begin != Stage::explore) {
+            if (!std::filesystem::exists(walk))
+                throw Error(fmt::format("{}: no walk of it, {}", o->draw.scene, walk.string()));
+            script = load_walk(walk);
+        }
         const auto furnish = [&](Scene& scene) {
             if (script) o->game.walk.emplace(*script, scene, walk.string());
         };

@@ -44,6 +44,7 @@ void style() {
     s.Colors[ImGuiCol_HeaderActive] = ImVec4(0.7f, 0.46f, 0.19f, 1);
     s.Colors[ImGuiCol_FrameBgHovered] = s.Colors[ImGuiCol_FrameBgActive] = ImVec4(0.35f, 0.29f, 0.22f, 0.8f);
     s.Colors[ImGuiCol_SliderGrabActive] = ImVec4(1, 0.8f, 0.45f, 1);
+    s.Colors[ImGuiCol_NavHighlight] = amber();
     s.Colors[ImGuiCol_FrameBg] = ImVec4(0.2f, 0.19f, 0.18f, 0.7f);
 }
 

@@ -221,6 +221,20 @@ TEST_F(Commands, StatisticsSayWhatTheTimeToTheFirstFrameWentInto) {
                                         "shaders", "first frame"}));
 }
 
+TEST_F(Commands, AWalkThatIsNotThereIsAnErrorInALine) {
+    const auto refusal = [&](const std::string& begin, int exit_code) {
+        const CommandResult result =
+            run_tyndall({"play", path("scene.gltf"), "--context", "egl", "--begin", begin});
+        EXPECT_EQ(result.exit_code, exit_code) << result.err;
+        EXPECT_EQ(lines(result.err).size(), 1u) << result.err;
+        return result.err;
+    };
+    EXPECT_THAT(refusal("ending", 2), AllOf(HasSubstr("ending"), HasSubstr("title, walk or explore")));
+    EXPECT_THAT(refusal("walk", 1), HasSubstr("scene.walk.json"));
+    std::ofstream(folder_ / "scene.walk.json") << R"({"places": []})";
+    EXPECT_THAT(refusal("title", 1), HasSubstr("\"title\" is missing"));
+}
+
 TEST_F(Commands, AFailedRenderKeepsTheOldFiles) {
     std::ofstream(folder_ / "out.png") << "old";
     const CommandResult result = run_tyndall({"render", path("scene.gltf"), "-o", path("out.png"), "--size",
