@@ -113,7 +113,8 @@ class Game {
         const double seconds = stopwatch_.lap();
         message_seconds_left_ -= seconds;
         frame_ms_ = frame_ms_ == 0 ? seconds * 1e3 : frame_ms_ + (seconds * 1e3 - frame_ms_) * 0.1;
-        DebugUi::Hud hud{where(), frame_ms_, message_seconds_left_ > 0 ? message_ : std::string{}, walk_banner()};
+        DebugUi::Hud hud{where(), frame_ms_, message_seconds_left_ > 0 ? message_ : std::string{},
+                         stage_ != Stage::explore, walk_banner()};
         if (budget_ && seconds > 0) scale_ = budget_->next(scale_, seconds * 1e3);
         const float scale = scale_;
         const PlayerSettings before = settings_;
@@ -172,7 +173,9 @@ class Game {
         if (stage == Stage::walk) walk_.emplace(options_.walk->script());
         capture(false);
         session_.renderer->invalidate_history();
-        say(options_.told.empty() ? help : options_.told + "\n" + help, help_seconds);
+        std::string first = std::exchange(told_, {});
+        if (stage == Stage::explore) first += (first.empty() ? "" : "\n") + std::string(help);
+        say(std::move(first), help_seconds);
     }
 
     /// Who walks, and the light that he plays with.
@@ -363,7 +366,7 @@ class Game {
     bool captured_ = false, by_gamepad_ = false, screenshot_requested_ = false;
     double time_ = 0, message_seconds_left_ = 0, frame_ms_ = 0;
     Stopwatch stopwatch_;
-    std::string message_;
+    std::string message_, told_ = options_.told;
 };
 
 }  // namespace

@@ -80,21 +80,25 @@ bool DebugUi::wants_pointer() const {
     return visible && ImGui::GetIO().WantCaptureMouse;
 }
 
+void DebugUi::hud_figures(const Session& session, const Hud& hud) {
+    const bool timed = !session.renderer->timings().empty();
+    const std::string volumetrics =
+        timed ? fmt::format("{:.2f} ms volumetrics", pass_milliseconds(*session.renderer, "volumetrics/"))
+              : std::string("volumetrics not timed");
+    const bool scaled = session.size.x < static_cast<int>(ImGui::GetIO().DisplaySize.x);
+    const std::string size = scaled ? fmt::format("{} x {}  |  ", session.size.x, session.size.y) : "";
+    ImGui::Text("%s  |  %s%.1f ms frame  |  %s  |  %s", session.settings.get("technique").c_str(), size.c_str(),
+                hud.frame_ms, volumetrics.c_str(), hud.place.c_str());
+}
+
 void DebugUi::hud_line(const Session& session, const Hud& hud) const {
     const ImVec2 screen = ImGui::GetIO().DisplaySize;
     ImGui::SetNextWindowPos(ImVec2(overlay_margin, screen.y - overlay_margin), ImGuiCond_Always, ImVec2(0, 1));
     ImGui::SetNextWindowBgAlpha(0.45f);
     if (ImGui::Begin("hud", nullptr, overlay_flags)) {
-        const bool timed = !session.renderer->timings().empty();
-        const std::string volumetrics =
-            timed ? fmt::format("{:.2f} ms volumetrics", pass_milliseconds(*session.renderer, "volumetrics/"))
-                  : std::string("volumetrics not timed");
         wrap_at(screen.x);
         if (!hud.message.empty()) ImGui::TextUnformatted(hud.message.c_str());
-        const bool scaled = session.size.x < static_cast<int>(screen.x);
-        const std::string size = scaled ? fmt::format("{} x {}  |  ", session.size.x, session.size.y) : "";
-        ImGui::Text("%s  |  %s%.1f ms frame  |  %s  |  %s", session.settings.get("technique").c_str(), size.c_str(),
-                    hud.frame_ms, volumetrics.c_str(), hud.place.c_str());
+        if (hud_visible) hud_figures(session, hud);
         ImGui::PopTextWrapPos();
     }
     ImGui::End();
@@ -193,7 +197,7 @@ DebugUi::Requests DebugUi::frame(Session& session, LevelLogic& logic, const Hud&
                                      : ImGuiConfigFlags_None;
     ImGui::NewFrame();
     Requests requests;
-    if (hud_visible && !title) hud_line(session, hud);
+    if (hud_visible || (hud.message_alone && !hud.message.empty())) hud_line(session, hud);
     if (hud.walk && !paused) walk_banner(*hud.walk);
     shader_errors(*session.shaders);
     if (visible) requests = window(session, logic, scale);

@@ -27,7 +27,8 @@ class DebugUi {
     struct Hud {
         std::string place;
         double frame_ms = 0;
-        std::string message;  ///< shown for a moment: "screenshot saved"
+        std::string message;         ///< shown for a moment: "screenshot saved"
+        bool message_alone = false;  ///< it is shown without the HUD line, too
         std::optional<WalkBanner> walk;
     };
     struct Requests {
@@ -42,7 +43,7 @@ class DebugUi {
     bool visible = false;             ///< the debug window (F1)
     bool hud_visible = true;          ///< the HUD line (H)
     bool paused = false;              ///< the menu (Esc)
-    bool title = false;               ///< the title screen, and no HUD
+    bool title = false;               ///< the title screen
     bool has_title = false;           ///< the menu leads to it
     bool has_level = true;            ///< time of day and fog may be chosen
     std::vector<std::string> places;  ///< that the menu goes to
@@ -52,6 +53,7 @@ class DebugUi {
 
   private:
     void hud_line(const Session& session, const Hud& hud) const;
+    static void hud_figures(const Session& session, const Hud& hud);
     void shader_errors(const ShaderLibrary& shaders) const;
     Requests window(Session& session, LevelLogic& logic, float& scale);
     void level(Session& session, LevelLogic& logic, float& scale);
