@@ -158,8 +158,9 @@ class Game {
     /// From its beginning, in the light that the level was made with.
     void enter(Stage stage) {
         stage_ = stage;
-        ui_.title = stage == Stage::title;
-        ui_.paused = false;
+        ui_.title.reset();
+        if (stage == Stage::title) ui_.title = options_.walk->script().title_words;
+        ui_.visible = ui_.paused = false;
         ui_.hud_visible = ui_.has_level = stage == Stage::explore;
         ui_.places.clear();
         for (const std::string& place : places)

@@ -72,12 +72,12 @@ void centred(const std::string& text, const ImVec4& color) {
     }
 }
 
-void title_banner() {
+void title_banner(const std::string& words) {
     begin("name of the game", 0.17f, 0);
     ImGui::SetWindowFontScale(letter_scale() + 2);
     centred("Tyndall", amber());
     ImGui::SetWindowFontScale(letter_scale());
-    centred("an abbey at dusk", pale());
+    centred(words, pale());
     ImGui::End();
 }
 

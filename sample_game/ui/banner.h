@@ -13,8 +13,8 @@ namespace tyndall {
 /// In the middle of a window, broken where it is too long.
 void centred(const std::string& text, const ImVec4& color);
 
-/// The name of the game, in the upper third.
-void title_banner();
+/// The name of the game and words below it, in the upper third.
+void title_banner(const std::string& words);
 
 /// What a walk says, and below it what can be done: in the lower third, either may be empty. Above, of `count`
 /// lamps `lit` burn; 0: none are told.

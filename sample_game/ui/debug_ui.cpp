@@ -202,7 +202,7 @@ DebugUi::Requests DebugUi::frame(Session& session, LevelLogic& logic, const Hud&
     shader_errors(*session.shaders);
     if (visible) requests = window(session, logic, scale);
     if (title)
-        requests.menu = title_menu_.frame(player, rows_, input);
+        requests.menu = title_menu_.frame(*title, player, rows_, input);
     else if (paused)
         requests.menu = pause_menu(player, rows_, input, places, has_title);
     else

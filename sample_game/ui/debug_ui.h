@@ -40,13 +40,13 @@ class DebugUi {
     Requests frame(Session& session, LevelLogic& logic, const Hud& hud, const Screen& screen, float& scale,
                    double dt, bool pointer_is_free, PlayerSettings& player);
 
-    bool visible = false;             ///< the debug window (F1)
-    bool hud_visible = true;          ///< the HUD line (H)
-    bool paused = false;              ///< the menu (Esc)
-    bool title = false;               ///< the title screen
-    bool has_title = false;           ///< the menu leads to it
-    bool has_level = true;            ///< time of day and fog may be chosen
-    std::vector<std::string> places;  ///< that the menu goes to
+    bool visible = false;              ///< the debug window (F1)
+    bool hud_visible = true;           ///< the HUD line (H)
+    bool paused = false;               ///< the menu (Esc)
+    std::optional<std::string> title;  ///< the title screen, with these words
+    bool has_title = false;            ///< the menu leads to it
+    bool has_level = true;             ///< time of day and fog may be chosen
+    std::vector<std::string> places;   ///< that the menu goes to
     /// A text field or a row of the player's keys takes what is typed.
     [[nodiscard]] bool wants_keyboard() const;
     [[nodiscard]] bool wants_pointer() const;

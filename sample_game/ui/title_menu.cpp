@@ -6,10 +6,11 @@
 
 namespace tyndall {
 
-MenuRequests TitleMenu::frame(PlayerSettings& settings, PlayerRows& rows, const Input& input) {
+MenuRequests TitleMenu::frame(const std::string& words, PlayerSettings& settings, PlayerRows& rows,
+                              const Input& input) {
     MenuRequests requests;
     if (!settings_) {
-        title_banner();
+        title_banner(words);
         begin_menu("##title", false);
         requests = choices(rows);
     } else {

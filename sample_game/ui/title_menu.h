@@ -8,7 +8,8 @@ namespace tyndall {
 /// What the game begins with. Within a Dear ImGui frame.
 class TitleMenu {
   public:
-    [[nodiscard]] MenuRequests frame(PlayerSettings& settings, PlayerRows& rows, const Input& input);
+    [[nodiscard]] MenuRequests frame(const std::string& words, PlayerSettings& settings, PlayerRows& rows,
+                                     const Input& input);
 
   private:
     MenuRequests choices(PlayerRows& rows);

@@ -61,8 +61,9 @@ WalkScene::WalkScene(WalkScript script, Scene& scene, const std::string& where)
                 throw Error(fmt::format("{}.places[{}]: medium {} given, but the scene has {}", where, i,
                                         fog.medium, media_.size()));
     if (const auto sun = scene.sun()) sun_ = {*sun, scene.lights[*sun].intensity};
-    find_lamps(scene, where);
+    gather_lamps(scene, where);
     add_twins(scene);
+    for (const Lamp& lamp : lamps_) shine(scene, lamp, 1, true);
     lantern_ = scene.lights.size();
     Node hand;
     hand.name = "lantern in hand";
@@ -75,7 +76,7 @@ WalkScene::WalkScene(WalkScript script, Scene& scene, const std::string& where)
     update_world_transforms(scene);
 }
 
-void WalkScene::find_lamps(const Scene& scene, const std::string& where) {
+void WalkScene::gather_lamps(const Scene& scene, const std::string& where) {
     for (std::size_t p = 0; p < script_.places.size(); ++p) {
         const WalkScript::Place& place = script_.places[p];
         const std::size_t before = lamps_.size();
@@ -113,14 +114,20 @@ void WalkScene::add_twins(Scene& scene) {
         const Aabb& box = scene.meshes[static_cast<std::size_t>(*glowing)].bounds;
         Lamp* lamp = lamp_at(scene, glm::vec3(node.world * glm::vec4((box.min + box.max) * 0.5f, 1)));
         if (lamp == nullptr) continue;
-        Node dark = node;
-        for (int& mesh : dark.meshes) mesh = dark_twin(scene, mesh, twins);
-        dark.dynamic = scene.nodes[static_cast<std::size_t>(n)].dynamic = true;
-        dark.light = -1;
-        dark.scale = glm::vec3(0);
-        lamp->glowing.push_back(n);
-        lamp->dark.push_back(static_cast<int>(scene.nodes.size()));
-        scene.nodes.push_back(std::move(dark));
+        const auto add = [&](std::vector<int>& nodes, std::vector<int> meshes) {
+            nodes.push_back(static_cast<int>(scene.nodes.size()));
+            scene.nodes.push_back({.name = node.name,
+                                   .parent = n,
+                                   .meshes = std::move(meshes),
+                                   .cast_shadow = false,
+                                   .draw_distance = node.draw_distance,
+                                   .dynamic = true});
+        };
+        std::vector<int> dark;
+        for (const int mesh : node.meshes) dark.push_back(dark_twin(scene, mesh, twins));
+        add(lamp->glowing, node.meshes);
+        add(lamp->dark, std::move(dark));
+        scene.nodes[static_cast<std::size_t>(n)].meshes.clear();
     }
 }
 

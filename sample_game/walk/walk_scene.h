@@ -13,9 +13,9 @@ namespace tyndall {
 /// and the sun that goes down.
 class WalkScene {
   public:
-    /// Adds the lantern, and a dark twin of each glowing thing at a lamp, before the renderer takes the scene. What
-    /// glows casts no shadow (assets/levels/README.md). Throws Error, which begins with `where`: the script names
-    /// what the scene has not.
+    /// Adds the lantern, and for each glowing thing at a lamp one that glows and a dark one in its place, before
+    /// the renderer takes the scene. What glows casts no shadow (assets/levels/README.md). Throws Error, which
+    /// begins with `where`: the script names what the scene has not.
     WalkScene(WalkScript script, Scene& scene, const std::string& where);
 
     [[nodiscard]] const WalkScript& script() const { return script_; }
@@ -31,13 +31,13 @@ class WalkScene {
         std::size_t place;
         float delay;                     ///< s after its place is lit
         bool first = false;              ///< that which the player lights
-        std::vector<int> glowing, dark;  ///< nodes, of which one kind shows
+        std::vector<int> glowing, dark;  ///< nodes, of which one kind shows: the other has no size
     };
     struct Sun {
         std::size_t light;
         glm::vec3 intensity;
     };
-    void find_lamps(const Scene& scene, const std::string& where);
+    void gather_lamps(const Scene& scene, const std::string& where);
     void add_twins(Scene& scene);
     [[nodiscard]] Lamp* lamp_at(const Scene& scene, glm::vec3 middle);
     static void shine(Scene& scene, const Lamp& lamp, float brightness, bool glows);

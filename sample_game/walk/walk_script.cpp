@@ -29,10 +29,8 @@ float seconds(const Field& field) {
     return field.number("a number from 1 to 3600", [](float v) { return v >= 1 && v <= 3600; });
 }
 
-WalkScript::View view(const Field& field, const std::vector<std::string_view>& more_keys = {}) {
-    std::vector<std::string_view> keys{"eye", "look"};
-    keys.insert(keys.end(), more_keys.begin(), more_keys.end());
-    field.require_object(keys);
+WalkScript::View view(const Field& field) {
+    field.require_object({"eye", "look", "words"});
     const WalkScript::View v{field.at("eye").vector<3>(&Field::place), field.at("look").vector<3>(&Field::place)};
     if (glm::distance(v.eye, v.look) < apart) field.fail("an eye apart from what it looks at");
     return v;
@@ -84,12 +82,13 @@ WalkScript parse_walk(const nlohmann::json& json, const std::string& where) {
     const Field field{json, where};
     field.require_object({"title", "beginning", "lantern", "night", "hint_after", "places", "end"});
     return {.title = view(field.at("title")),
+            .title_words = field.at("title").at("words").text(),
             .beginning = lines(field.at("beginning")),
             .lantern = lantern(field.at("lantern")),
             .night = night(field.at("night")),
             .hint_after = seconds(field.at("hint_after")),
             .places = list(field.at("places"), false, place),
-            .end = view(field.at("end"), {"words"}),
+            .end = view(field.at("end")),
             .end_words = lines(field.at("end").at("words"))};
 }
 

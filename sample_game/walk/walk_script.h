@@ -40,6 +40,7 @@ struct WalkScript {
     };
 
     View title;
+    std::string title_words;
     std::vector<std::string> beginning;
     Lantern lantern;
     Night night;

@@ -4,7 +4,7 @@ namespace tyndall::test {
 
 nlohmann::json walk_of_two_lamps() {
     return nlohmann::json::parse(R"({
-        "title": {"eye": [0, 2, 12], "look": [0, 1, 0]},
+        "title": {"eye": [0, 2, 12], "look": [0, 1, 0], "words": "two lamps"},
         "beginning": ["It is dark.", "Light the lamps."],
         "lantern": {"candela": 20, "range": 8, "color": [1, 0.7, 0.4]},
         "night": {"sun": 0.1, "color": [0.6, 0.7, 1], "exposure": -1},
