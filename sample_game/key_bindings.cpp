@@ -29,7 +29,7 @@ constexpr std::array<std::pair<const char*, const char*>, 8> gamepad_labels{{{"{
                                                                              {"{back}", "Left stick"},
                                                                              {"{left}", "Left stick"},
                                                                              {"{right}", "Left stick"},
-                                                                             {"{run}", "Left stick"},
+                                                                             {"{run}", "Right trigger"},
                                                                              {"{jump}", "A"},
                                                                              {"{lantern}", "B"},
                                                                              {"{use}", "X"}}};

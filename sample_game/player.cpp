@@ -21,6 +21,7 @@ constexpr float jump_speed = 4.2f;                                              
 constexpr float gravity = 9.81f;
 constexpr float pointer_gain = 0.0022f;  // rad per pixel
 constexpr float stick_gain = 2.6f;       // rad/s
+constexpr float pulled = 0.5f;           // of a trigger's way
 constexpr float max_pitch = 1.54f;
 constexpr double longest_step = 1.0 / 120;  // s, of what moves
 constexpr float stair_time = 0.08f;         // s in which the eye makes up for all but 1/e of a step
@@ -240,8 +241,8 @@ void Player::fly_step(const Input& input, glm::vec2 move, float dt) {
 
 void Player::walk_step(const Input& input, glm::vec2 move, float dt) {
     const glm::vec3 forward(-std::sin(yaw_), 0, -std::cos(yaw_)), right(std::cos(yaw_), 0, -std::sin(yaw_));
-    const glm::vec3 velocity =
-        (forward * move.y + right * move.x) * (input.down(keys.run) ? run_speed : walk_speed);
+    const bool runs = input.down(keys.run) || input.gamepad.up > pulled;
+    const glm::vec3 velocity = (forward * move.y + right * move.x) * (runs ? run_speed : walk_speed);
     btKinematicCharacterController& character = *world_->character;
     const bool stood = character.onGround();
     const float before = world_->eye().y;

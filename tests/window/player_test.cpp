@@ -154,6 +154,31 @@ TEST(Player, FliesEquallyFarAtEveryFrameRateAndRoundTheSameCurve) {
     EXPECT_LT(glm::length(end(1) - end(1.0 / 60)), 0.05f);
 }
 
+TEST(Player, AGamepadWalksAndRuns) {
+    Player player(BoxScene().floor().scene());
+    run(player, {}, 0.5);
+    glm::vec3 from = player.eye();
+    Input input;
+    input.gamepad.left = {0, -1};
+    run(player, input, 1);
+    EXPECT_NEAR(glm::length(player.eye() - from), 2.4, 0.1);
+    from = player.eye();
+    input.gamepad.up = 1;
+    run(player, input, 1);
+    EXPECT_NEAR(glm::length(player.eye() - from), 5.0, 0.15);
+}
+
+TEST(Player, WalksByItsOwnKeys) {
+    Player player(BoxScene().floor().scene());
+    player.keys.forward = Key::i;
+    run(player, {}, 0.5);
+    const glm::vec3 from = player.eye();
+    run(player, holding({Key::w}), 1);
+    EXPECT_NEAR(glm::length(player.eye() - from), 0, 0.01);
+    run(player, holding({Key::i}), 1);
+    EXPECT_NEAR(glm::length(player.eye() - from), 2.4, 0.1);
+}
+
 TEST(Player, ShiftRunsAndDiagonalsAreNotFaster) {
     Player player(BoxScene().floor().scene());
     run(player, {}, 0.5);
