@@ -98,17 +98,7 @@ LampIntegral lamp_integral(float a, float b, float span, float h, float radius) 
     return parts;
 }
 
-// From a to u.
-float lamp_integral_before(LampIntegral parts, float u) {
-    bool behind = u > parts.leave;
-    float from = behind ? parts.leave : parts.a;
-    float to = behind ? u : min(u, parts.enter);
-    float sum = to > from ? inverse_square_integral(from, to, to - from, parts.h) : 0.0f;
-    if (behind) return parts.before + parts.inside + sum;
-    return u > parts.enter ? sum + parts.inside * (u - parts.enter) / (parts.leave - parts.enter) : sum;
-}
-
-// The inverse: u - a at which the integral from a reaches a value.
+// u - a at which the integral from a reaches a value.
 float lamp_advance(LampIntegral parts, float integral) {
     float rest = integral - parts.before;
     if (rest > 0.0f && rest <= parts.inside) {

@@ -67,23 +67,35 @@ struct Gathering {
 
 const LampIntegral NO_LAMP = LampIntegral(0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0);
 
-// The share of the light that is gathered before a place; `places`: of begin and end. Inverse squares are even over places,
-// but within the sphere of the lamp's radius they are cut off, and even over distance.
-float gathered_before(EpipolarRay ray, Gathering light, float place, vec2 places) {
-    if (!light.of_lamp) {
-        float share = (epipolar_distance(ray, place) - light.begin) / (light.end - light.begin);
-        return share_before(clamp(share, 0.0, 1.0), light.fall);
+// Where a ray passes a lamp among the cells: nearest to it, and into and out of the sphere of its radius.
+struct LampPlaces {
+    float nearest;
+    float enter;
+    float leave;
+};
+
+LampPlaces lamp_places(EpipolarRay ray, LampIntegral lamp) {
+    float nearest = asin(clamp(ray.cosine, -1.0, 1.0));
+    vec2 sphere = atan(vec2(lamp.enter, lamp.leave), vec2(lamp.h));
+    return LampPlaces(nearest * ray.cells_per_unit, (nearest + sphere.x) * ray.cells_per_unit,
+                      (nearest + sphere.y) * ray.cells_per_unit);
+}
+
+// The share of the light that is gathered before a place, where all begins at the place `first`. Parallel light is even over
+// distance; inverse squares are over places, but within the sphere they are cut off, and even over distance.
+float gathered_before(EpipolarRay ray, Gathering light, LampPlaces lamp, float place, float first) {
+    float share;
+    if (!light.of_lamp || ray.distance == 0.0) {
+        share = (epipolar_distance(ray, place) - light.begin) / (light.end - light.begin);
+    } else {
+        float outside = min(place, lamp.enter) - first + max(place - lamp.leave, 0.0);
+        float u = light.lamp.h * tan(clamp((place - lamp.nearest) / ray.cells_per_unit, -1.5707, 1.5707));
+        float inside = clamp((u - light.lamp.enter) / max(light.lamp.leave - light.lamp.enter, 1.0e-9), 0.0, 1.0);
+        float sum = outside / (ray.cells_per_unit * max(light.lamp.h, 1.0e-6)) + inside * light.lamp.inside;
+        share = sum / light.lamp.total;
     }
-    float share = (place - places.x) / (places.y - places.x);
-    if (light.lamp.inside > 0.0) {
-        // Of the triangle of eye, lamp and place the angle at the place, by the other two.
-        float at_lamp = place / ray.cells_per_unit;
-        float cosine = ray.cosine * cos(at_lamp) - ray.sine * sin(at_lamp);
-        float sine = ray.sine * cos(at_lamp) + ray.cosine * sin(at_lamp);
-        float u = -light.lamp.h * cosine / max(sine, 1.0e-9);
-        share = lamp_integral_before(light.lamp, u) / light.lamp.total;
-    }
-    return lamp_segment_share(light.parts, clamp(share, 0.0, 1.0));
+    share = clamp(share, 0.0, 1.0);
+    return light.of_lamp ? lamp_segment_share(light.parts, share) : share_before(share, light.fall);
 }
 
 // Of the largest node that begins with the cell and ends with `last` or before.
@@ -108,29 +120,23 @@ float epipolar_share(EpipolarRay ray, Gathering light) {
         if (slope >= whole.y) return 1.0;
         if (slope < whole.x) return 0.0;
     }
+    LampPlaces lamp = lamp_places(ray, light.lamp);
     int level = epipolar_level(ray, cell, last);
     bool lit = false;
     float share = 0.0;
     while (cell <= last) {
-        // To the first node that is lit where those before it are dark, or the other way round.
-        bool changes = false;
-        while (cell <= last) {
-            vec2 node = texelFetch(epipolar_nodes, epipolar_texel(ray.root + ((ray.cells + cell) >> level)), 0).xy;
-            count_work(WORK_TREE_NODES, 1u);
-            bool all_lit = slope >= node.y;
-            if (!all_lit && slope >= node.x) {
-                --level;
-                continue;
-            }
-            changes = all_lit != lit;
-            if (changes) break;
-            cell += 1 << level;
-            level = epipolar_level(ray, cell, last);
+        vec2 node = texelFetch(epipolar_nodes, epipolar_texel(ray.root + ((ray.cells + cell) >> level)), 0).xy;
+        count_work(WORK_TREE_NODES, 1u);
+        bool all_lit = slope >= node.y;
+        if (!all_lit && slope >= node.x) {
+            --level;
+            continue;
         }
-        if (!changes) break;
-        float before = cell == begin ? 0.0 : gathered_before(ray, light, float(cell), places);
-        share += lit ? before : -before;
-        lit = !lit;
+        if (all_lit != lit) {
+            float before = cell == begin ? 0.0 : gathered_before(ray, light, lamp, float(cell), places.x);
+            share += lit ? before : -before;
+            lit = all_lit;
+        }
         cell += 1 << level;
         level = epipolar_level(ray, cell, last);
     }

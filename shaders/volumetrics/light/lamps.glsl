@@ -29,6 +29,7 @@ void expect_lamps(Ray ray, float begin, float end, uint segments) {
 #endif
 #if EPIPOLAR
     in_media += 16u;  // nodes of a tree
+    segments += 4u;   // parts of a lamp's light, see parts_a_half_turn
 #endif
     lamp_rounds = LAMPS == 1 ? segments * (1u + in_media) : 2u * lists + segments * (2u + in_media);
 }
@@ -288,7 +289,7 @@ vec3 lamp_over_segment(Ray ray, Segment segment, FoundLamp found, inout vec3 uns
     float b = part.end - lamp.t_closest;
     float angle = atan(lamp.h * (part.end - part.begin), lamp.h * lamp.h + a * b);
     const float HALF_TURN = 3.14159265;
-    int parts = int(ceil(max(parts_a_half_turn(segment, light, lamp) * angle / HALF_TURN, 1.0)));
+    int parts = int(max(parts_a_half_turn(segment, light, lamp) * angle / HALF_TURN + 0.5, 1.0));
     vec3 sum = vec3(0.0);
     for (int i = 1; i <= parts; ++i) {
         float integral = angle * float(i) / (float(parts) * max(lamp.h, 1.0e-6));

@@ -34,7 +34,7 @@ uint needed_steps(Ray ray, float begin, float end) {
     float x = mean_channel(m.optical_depth);
     uint least = 1u;
 #if LOCAL_MEDIA == 2
-    if (media_span.x < media_span.y) least = min(volumetrics.steps, LEAST_LOCAL_STEPS);
+    if (media_span.x < media_span.y) least = LAMPS > 0 ? volumetrics.steps : min(volumetrics.steps, LEAST_LOCAL_STEPS);
 #endif
 #if HEIGHT_MEDIA
     float a = ray.origin.y + ray.direction.y * begin;

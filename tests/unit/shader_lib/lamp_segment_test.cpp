@@ -356,23 +356,6 @@ TEST(LampSegment, SharesAreThoseOfTheLightGathered) {
     }
 }
 
-// Through the sphere of the radius and past it.
-TEST(LampSegment, TheIntegralUpToAPointIsThatOfTheLaw) {
-    std::mt19937 random(37);
-    std::uniform_real_distribution<double> unit(0.0, 1.0);
-    for (int i = 0; i < 1000; ++i) {
-        Case c = fog_case(random);
-        c.lamp.radius = rounded(2 * c.lamp.h * unit(random));
-        const double t = c.a + unit(random) * (c.b - c.a), closest = c.lamp.t_closest;
-        const glsl::LampIntegral integral = glsl::lamp_integral(
-            static_cast<float>(c.a - closest), static_cast<float>(c.b - closest), static_cast<float>(c.b - c.a),
-            static_cast<float>(c.lamp.h), static_cast<float>(c.lamp.radius));
-        EXPECT_NEAR(glsl::lamp_integral_before(integral, static_cast<float>(t - closest)) / integral.total,
-                    c.lamp.integral(c.a, t) / c.lamp.integral(c.a, c.b), 1e-3)
-            << describe(c);
-    }
-}
-
 TEST(LampSegment, PlacesRiseFromEndToEnd) {
     for (const glsl::vec4 parts : {glsl::vec4(1, 2, 3, 4), glsl::vec4(0, 1, 0, 0), glsl::vec4(0, 0, 0, 5),
                                    glsl::vec4(1e-20F, 0, 0, 1), glsl::vec4(0)}) {
