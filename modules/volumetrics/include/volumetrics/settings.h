@@ -133,8 +133,9 @@ struct EpipolarSettings {
 };
 /// Of the technique auto.
 struct AutoSettings {
-    int lamps = 4;            ///< 0 … 8 that pixels take one by one
-    float least_lamp = 0.5f;  ///< 0 … 1 of all lamps' light, for each of them
+    int lamps = 8;  ///< 0 … 8 that pixels take one by one
+    float least_lamp =
+        0.5f;  ///< 0 … 1 of all lamps' light, for each of them; a tenth of it without local media in view
 };
 struct ReferenceSettings {
     int steps = 1024;       ///< 16 … 16384 a ray

@@ -407,7 +407,7 @@ SettingsTable& growing_settings_table() {
             .real(in(&S::automatic, &AutoSettings::least_lamp),
                   {"auto_least_lamp", "Least lamp by pixel",
                    "Technique auto: share of all lamps' light in the medium, below which a lamp is left to the "
-                   "froxels."},
+                   "froxels; a tenth of it where no local medium is in view, for there such lamps cost little."},
                   0, 1)
             .integer(in(&S::reference, &ReferenceSettings::steps),
                      {"reference_steps", "Reference steps",

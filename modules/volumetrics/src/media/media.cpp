@@ -204,9 +204,12 @@ unsigned phase_option(PhaseFunction phase) {
 }
 
 void set_few_lamps(const Inputs& inputs, const Settings& settings, FrameMedia& media) {
+    // Without local media a lamp is mostly one evaluation a ray.
+    constexpr float least_in_clear_view = 0.1F;
+    const float least = settings.automatic.least_lamp * (media.local.empty() ? least_in_clear_view : 1);
     const glm::vec3 sigma_t(media.data.homogeneous_sigma_t);
     media.few_lamps = choose_few_lamps(inputs.lamps, inputs.eye, (sigma_t.r + sigma_t.g + sigma_t.b) / 3,
-                                       settings.automatic.lamps, settings.automatic.least_lamp);
+                                       settings.automatic.lamps, least);
     for (std::size_t i = 0; i < MAX_FEW_LAMPS; ++i)
         media.data.few_lamps[i / 4][static_cast<int>(i % 4)] =
             i < media.few_lamps.size() ? media.few_lamps[i].index : ~0U;
