@@ -267,7 +267,7 @@ vec3 lamp_over_reach(Ray ray, Segment segment, FoundLamp found, Reach reach, ino
 
 #if EPIPOLAR
 // Into how many parts of equal angles, as seen from the lamp, its rule needs a half turn cut: for the peak of the phase function, so that what
-// passes a lamp anywhere in an optical depth of up to 2 is off by at most 0.2% for g = 0.3, 0.1% for 0.6 and 0.6% for 0.9 (by quadrature); for the
+// passes a lamp anywhere in an optical depth of up to 2 is off by at most 0.3% for g = 0.3, 0.2% for 0.6 and 0.6% for 0.9 (by quadrature); for the
 // kinks of a spot's law; in the sphere of the lamp's radius, where the angle changes fast and the light does not; and for the points that ask for glass.
 float parts_a_half_turn(Segment segment, GpuLight light, LampRay lamp) {
     bool two_lobes = volumetrics.phase >= uint(PHASE_DOUBLE_HENYEY_GREENSTEIN);
